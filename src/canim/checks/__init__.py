@@ -1,0 +1,95 @@
+"""Checks that tell a student what is right, what is missing and what to look at.
+
+`TASKS` is the registry of the course's tasks; cards, index, command line and tests are
+made from it. `show` displays a report: it may be replaced to display it elsewhere.
+"""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from typing import Any
+
+from canim.checks import report as _report
+from canim.checks.report import Report
+from canim.checks.run import run
+from canim.checks.task import BLOCKS, Task
+
+__all__ = ["BLOCKS", "TASKS", "Report", "Task", "check", "find", "run", "show"]
+
+TASKS: dict[str, Task] = {
+    task.id: task
+    for task in (
+        importlib.import_module(f"{__name__}.{module.name}").TASK
+        for module in sorted(pkgutil.iter_modules(__path__), key=lambda module: module.name)
+        if module.name.startswith("task_")
+    )
+}
+
+show = _report.show
+
+
+class _End(Exception):
+    """Ends a notebook's cell without a traceback: the report has said what is wrong."""
+
+    def _render_traceback_(self) -> list[str]:
+        return []
+
+
+def find(task: str) -> Task:
+    """Return the task with this number, such as "1.1".
+
+    Raises
+    ------
+    ValueError
+        If there is no such task.
+    """
+    if task not in TASKS:
+        raise ValueError(f"There is no task {task!r}; there are {', '.join(TASKS)}.")
+    return TASKS[task]
+
+
+def check(task: str, *, hint: bool = False, **functions: Any) -> None:
+    """Show what is right, what is missing and what to look at in a student's program.
+
+    Where one of the functions crashes, the program ends after the report.
+
+    Parameters
+    ----------
+    task : str
+        Number of the task, such as "1.1".
+    hint : bool
+        Whether to show the hints of the mistakes that were recognised.
+    **functions
+        The functions, and for some tasks the data, that the task asks for, by name.
+
+    Raises
+    ------
+    ValueError
+        If there is no such task.
+    TypeError
+        If the task does not know one of the names.
+
+    Examples
+    --------
+    >>> import canim
+    >>> from canim.interpolation import hermite_basis
+    >>> canim.check("1.1", hermite_basis=hermite_basis)
+    Task 1.1: Draw the four Hermite curves
+      ✓ H0, start value  done
+      ✓ H1, end value    done
+      ✓ H2, start slope  done
+      ✓ H3, end slope    done
+      hermite_basis uses canim's function.
+    All checks of Task 1.1 pass.
+    """
+    found = find(task)
+    for name in functions:
+        if name not in found.names:
+            raise TypeError(
+                f"Task {task} has nothing called {name}; it checks {', '.join(found.names)}."
+            )
+    report = run(found, functions, hint=hint)
+    show(report)
+    if report.crashed:
+        raise _End if _report.in_notebook() else SystemExit(1)

@@ -1,0 +1,67 @@
+"""Say in one plain sentence where and why a student's line failed."""
+
+from __future__ import annotations
+
+import linecache
+import re
+import traceback
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Crash:
+    """Line number and text of the student's line (0 and "" where unknown), and the reason."""
+
+    line: int
+    code: str
+    sentence: str
+
+
+def explain(error: BaseException, is_students: Callable[[str], bool]) -> Crash:
+    """Return where `error` left the student's own files, and why in plain words.
+
+    `is_students(file_name)` tells the student's files from those of libraries.
+    """
+    if isinstance(error, SyntaxError):
+        line, name = error.lineno or 0, error.filename or ""
+        return Crash(line, linecache.getline(name, line).strip(), sentence(error))
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if is_students(f.filename)]
+    if not frames:
+        return Crash(0, "", sentence(error))
+    return Crash(frames[-1].lineno or 0, (frames[-1].line or "").strip(), sentence(error))
+
+
+def sentence(error: BaseException) -> str:
+    """Return what went wrong in plain words, with Python's own message behind it."""
+    text = re.sub(r"\s+", " ", str(error)).strip()
+    own = f"{type(error).__name__}: {text}" if text else type(error).__name__
+    plain = next(
+        words
+        for kind, pattern, words in _PLAIN
+        if isinstance(error, kind) and re.search(pattern, text)
+    )
+    name = getattr(error, "name", None)
+    return f"{plain.format(name=name)}\n(Python says: {own})"
+
+
+_PLAIN: list[tuple[type[BaseException], str, str]] = [
+    (IndentationError, "", "The spaces at the start of this line do not fit the lines around it."),
+    (SyntaxError, "never closed", "A bracket is opened and never closed."),
+    (SyntaxError, "expected ':'", "A colon is missing at the end of this line."),
+    (SyntaxError, "", "Python cannot read this line: look for a missing bracket, colon or quote."),
+    (UnboundLocalError, "", "The name {name} is used before it gets a value."),
+    (NameError, "", "The name {name} is not known here. Look at its spelling."),
+    (IndexError, "", "An index is too large: counting starts at 0 and ends one before the length."),
+    (ZeroDivisionError, "", "Something is divided by zero."),
+    (RecursionError, "", "A function calls itself without end."),
+    (ValueError, "broadcast|shape|dimension|aligned|matmul", "The sizes of two arrays do not match."),
+    (TypeError, "not callable", "Round brackets call a function; to take an entry use square ones."),
+    (TypeError, "NoneType", "A value here is None: is a return missing?"),
+    (TypeError, "argument", "The function is called with too few, too many or wrong arguments."),
+    (TypeError, "", "A value here has the wrong type for what is done with it."),
+    (AttributeError, "", "This value has nothing called {name}."),
+    (ModuleNotFoundError, "", "The module {name} is not installed."),
+    (FileNotFoundError, "", "A file that this line opens is not there."),
+    (BaseException, "", "This line stopped the program."),
+]  # fmt: skip

@@ -1,0 +1,181 @@
+"""Check a student's file, a program or a notebook, in a fresh process."""
+
+from __future__ import annotations
+
+import ast
+import json
+import linecache
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from dataclasses import asdict
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from canim import checks
+from canim.checks.crash import Crash, explain
+from canim.checks.report import Report, Result
+from canim.checks.task import Task
+
+
+class UnusableFile(Exception):
+    """The file cannot be checked; the message says why."""
+
+
+def check_file(
+    path: Path, *, task: str | None = None, hint: bool = False, limit: float = 60
+) -> Report:
+    """Run the file in a fresh process without windows and return the report on it.
+
+    Parameters
+    ----------
+    path : Path
+        A Python program or a Jupyter notebook.
+    task : str, optional
+        Number of the task; otherwise that of the file's call of ``canim.check``, or of
+        its name.
+    hint : bool
+        Whether to show the hints of the mistakes that were recognised.
+    limit : float
+        Time in seconds after which the program is ended.
+
+    Raises
+    ------
+    UnusableFile
+        If the file is not there, is not a task or cannot be read as Python.
+    """
+    found = _task_of(path, [tree for tree, _ in _parsed(path)], task)
+    how_to_hint = f"canim check --hint {path}"
+    with tempfile.TemporaryDirectory() as folder:
+        answer = Path(folder) / "report.json"
+        try:
+            subprocess.run(
+                [sys.executable, "-m", __name__, path.resolve(), found.id, answer],
+                cwd=path.resolve().parent,
+                env=os.environ | {"MPLBACKEND": "agg", "PYTHONIOENCODING": "utf-8"},
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+                timeout=limit,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            reason = f"did not end within {limit:g} seconds. Is there a loop without an end?"
+            return _empty(found, reason)
+        if not answer.exists():
+            return _empty(found, "ended before its functions could be checked.")
+        told = json.loads(answer.read_text(encoding="utf-8"))
+    return Report(
+        found,
+        tuple(Result(**result) for result in told["results"]),
+        notes=tuple(told["notes"]),
+        show_hints=hint,
+        how_to_hint=how_to_hint,
+        stopped=told["stopped"] and Crash(**told["stopped"]),
+        answers=told["answers"],
+    )
+
+
+def _empty(task: Task, reason: str) -> Report:
+    results = tuple(Result(part.name, "waits", "not checked") for part in task.parts)
+    return Report(task, results, notes=(f"The program {reason}",))
+
+
+def _parsed(path: Path) -> list[tuple[ast.Module, str]]:
+    """Return the program, or each cell of the notebook, as a tree and its name in messages."""
+    parsed = []
+    for code, name in _sources(path):
+        lines = code.splitlines(keepends=True)
+        linecache.cache[name] = (len(code), None, lines, name)
+        try:
+            parsed.append((ast.parse(code, name), name))
+        except SyntaxError as error:
+            crash = explain(error, lambda _: False)
+            raise UnusableFile(
+                f"{name}, line {crash.line}: {crash.code}\n{crash.sentence}"
+            ) from None
+        except ValueError as error:
+            raise UnusableFile(f"{name} is not a Python program: {error}.") from None
+    return parsed
+
+
+def _sources(path: Path) -> list[tuple[str, str]]:
+    if path.suffix not in (".py", ".ipynb"):
+        raise UnusableFile(f"{path} is neither a .py nor an .ipynb file.")
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise UnusableFile(f"{path} is not there.") from None
+    except UnicodeDecodeError:
+        raise UnusableFile(f"{path} is not a text in UTF-8: save it as UTF-8.") from None
+    except OSError as error:
+        raise UnusableFile(f"{path} cannot be read: {error.strerror}.") from None
+    if path.suffix == ".py":
+        return [(text, str(path))]
+    try:
+        cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
+        codes = ["".join(cell["source"]) for cell in cells]
+    except (ValueError, KeyError, TypeError):
+        raise UnusableFile(f"{path} is not a Jupyter notebook.") from None
+    # Lines for IPython, such as %pip, are not Python.
+    codes = [re.sub(r"^(\s*)[%!].*$", r"\1pass", code, flags=re.M) for code in codes]
+    return [(code, f"{path}, code cell {i}") for i, code in enumerate(codes, 1)]
+
+
+def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
+    if asked is not None:
+        try:
+            return checks.find(asked)
+        except ValueError as error:
+            raise UnusableFile(str(error)) from None
+    calls = [
+        node.args[0].value
+        for tree in trees
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and ast.unparse(node.func) in ("canim.check", "check")
+        and node.args
+        and isinstance(node.args[0], ast.Constant)
+    ]
+    named = re.search(r"task[_ -]?(\d)[_. -](\d)", path.name)
+    for number in [*calls, *([f"{named[1]}.{named[2]}"] if named else [])]:
+        if number in checks.TASKS:
+            return checks.TASKS[str(number)]
+    raise UnusableFile(f"{path} is not a task of the course: say which one with --task, as in 1.1.")
+
+
+def _run_here(path: Path, task: Task) -> dict[str, Any]:
+    """Run the file in this process and return what the report needs, as JSON can hold it."""
+    # The file's own call would report twice, and end the program where a part crashes.
+    checks.check = lambda *args, **functions: None
+    parsed = _parsed(path)
+    names = {name for _, name in parsed}
+    module = ModuleType("__main__")
+    sys.modules["__main__"] = module
+    sys.argv = [str(path)]
+    sys.path.insert(0, str(path.parent))
+    stopped = None
+    try:
+        for tree, name in parsed:
+            exec(compile(tree, name, "exec"), module.__dict__)
+    except Exception as error:
+        stopped = asdict(explain(error, lambda file_name: file_name in names))
+    except SystemExit:
+        pass
+    report = checks.run(task, {name: vars(module).get(name) for name in task.names})
+    answers = vars(module).get("answers")
+    return {
+        "results": [asdict(result) for result in report.results],
+        "notes": report.notes,
+        "stopped": stopped,
+        "answers": answers if isinstance(answers, dict) else {},
+    }
+
+
+if __name__ == "__main__":
+    asked, number, answer = sys.argv[1:]
+    told = _run_here(Path(asked), checks.find(number))
+    Path(answer).write_text(json.dumps(told, default=str), encoding="utf-8")

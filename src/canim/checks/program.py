@@ -1,0 +1,130 @@
+"""Call a student's functions so that nothing they do disturbs the check."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import sys
+import warnings
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from types import CodeType, FrameType
+from typing import Any
+
+import numpy as np
+
+from canim.checks.crash import Crash, explain
+from canim.checks.task import Function, Task, Unusable
+
+_OURS = str(Path(__file__).parents[1])
+
+
+class Stopped(Exception):
+    """A function could not be used; `problem` is a `Crash` or a sentence."""
+
+    def __init__(self, name: str, problem: Crash | str) -> None:
+        super().__init__(name)
+        self.name = name
+        self.problem = problem
+
+
+class Program:
+    """The functions and data of a student, of the reference or of a known mistake.
+
+    Attributes are the names that the task registers. Every call gets copies of its
+    arguments, is silent, and is made once for the same arguments.
+    """
+
+    def __init__(self, task: Task, names: Mapping[str, Any]) -> None:
+        self._task = task
+        self._names = names
+        self._results: dict[tuple[Any, ...], tuple[tuple[Any, ...], Any]] = {}
+        self._canim_codes = {getattr(f, "__code__", None) for f in task.canim_functions}
+        self.uses_canim: dict[str, None] = {}
+        self.changes: dict[str, None] = {}
+
+    def __getattr__(self, name: str) -> Any:
+        for function in self._task.functions:
+            if function.name == name:
+                return lambda *args: self._call(function, *args)
+        for data in self._task.data:
+            if data.name == name:
+                return self._value(name, data.accept)
+        raise AttributeError(name)
+
+    def _value(self, name: str, accept: Callable[[Any], Any]) -> Any:
+        if self._names.get(name) is None:
+            raise Stopped(name, f"{name} is missing: keep this name in your program.")
+        try:
+            return accept(self._names[name])
+        except Unusable as problem:
+            raise Stopped(name, f"{name} {problem}") from None
+
+    def _call(self, function: Function, *args: Any) -> Any:
+        key = (function.name, *map(id, args))
+        if key not in self._results:
+            # The arguments are kept with the result: an id is only theirs while they live.
+            self._results[key] = (args, self._fresh_call(function, *args))
+        result = self._results[key][1]
+        if isinstance(result, Stopped):
+            raise result
+        return result
+
+    def _fresh_call(self, function: Function, *args: Any) -> Any:
+        call = self._names.get(function.name)
+        if call is None:
+            sentence = f"{function.name} is missing: keep this name in your program."
+            return Stopped(function.name, sentence)
+        if not callable(call):
+            return Stopped(function.name, f"{function.name} must be a function.")
+        own = [a.copy() if isinstance(a, np.ndarray) else a for a in args]
+        try:
+            with _quiet(), self._watch(function.name):
+                result = call(*own)
+        except Exception as error:
+            return Stopped(function.name, explain(error, _is_students(call)))
+        except SystemExit:
+            return Stopped(function.name, f"{function.name} ends the program instead of returning.")
+        if any(not _same(a, b) for a, b in zip(args, own, strict=True)):
+            self.changes[function.name] = None
+        try:
+            return function.accept(result, *args)
+        except Unusable as problem:
+            return Stopped(function.name, f"{function.name} {problem}")
+
+    @contextlib.contextmanager
+    def _watch(self, name: str) -> Iterator[None]:
+        # A profiler sees every call, however the student came by canim's function.
+        def seen(frame: FrameType, event: str, arg: Any) -> None:
+            code: CodeType = frame.f_code
+            if event == "call" and code in self._canim_codes:
+                self.uses_canim[name] = None
+
+        before = sys.getprofile()
+        if self._canim_codes and before is None:
+            sys.setprofile(seen)
+        try:
+            yield
+        finally:
+            sys.setprofile(before)
+
+
+def _same(a: Any, b: Any) -> bool:
+    return not isinstance(a, np.ndarray) or np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+
+
+@contextlib.contextmanager
+def _quiet() -> Iterator[None]:
+    with (
+        warnings.catch_warnings(),
+        np.errstate(all="ignore"),
+        contextlib.redirect_stdout(io.StringIO()),
+    ):
+        warnings.simplefilter("ignore")
+        yield
+
+
+def _is_students(call: Any) -> Callable[[str], bool]:
+    """Return a test for the student's files: that of the function, none of canim's."""
+    own = getattr(getattr(call, "__code__", None), "co_filename", "")
+    return lambda file_name: file_name == own and not file_name.startswith(_OURS)

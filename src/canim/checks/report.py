@@ -1,0 +1,180 @@
+"""The report of a check: as text for a terminal, as HTML for a notebook or a page."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import textwrap
+from dataclasses import dataclass
+from html import escape
+from typing import Any
+
+from canim.checks.crash import Crash
+from canim.checks.task import Task
+
+WIDTH = 88
+STATES = {
+    "done": ("✓", "done"),
+    "unwritten": ("○", "not written yet"),
+    "differs": ("✗", "differs"),
+    "crashed": ("✗", "stops"),
+    "unusable": ("✗", "cannot be compared"),
+    "waits": ("–", "waits for the part above"),
+}
+PLAIN_MARKS = {"✓": "+", "○": "o", "✗": "x", "–": "-"}
+
+
+@dataclass(frozen=True)
+class Result:
+    """What the check found for one part; `hint` is the hint of the mistake recognised."""
+
+    part: str
+    state: str
+    message: str = ""
+    mistake: str = ""
+    hint: str = ""
+
+
+@dataclass(frozen=True)
+class Report:
+    """What a check found, part by part.
+
+    `notes` are sentences about the program as a whole; `answers` counts the questions
+    answered, where the file was seen; `stopped` says where the file itself crashed.
+    """
+
+    task: Task
+    results: tuple[Result, ...]
+    notes: tuple[str, ...] = ()
+    show_hints: bool = False
+    how_to_hint: str = ""
+    stopped: Crash | None = None
+    answers: dict[str, str] | None = None
+
+    @property
+    def done(self) -> bool:
+        """Whether every part is done and the program ran to its end."""
+        return self.stopped is None and all(r.state == "done" for r in self.results)
+
+    @property
+    def crashed(self) -> bool:
+        """Whether one of the functions stopped with an error."""
+        return any(r.state == "crashed" for r in self.results)
+
+    @property
+    def summary(self) -> str:
+        """One sentence on the whole."""
+        if self.done:
+            return f"All checks of Task {self.task.id} pass."
+        done = sum(r.state == "done" for r in self.results)
+        return f"Task {self.task.id}: {done} of {len(self.results)} parts done."
+
+    @property
+    def hints(self) -> list[tuple[str, str]]:
+        """Part and hint of every mistake recognised, each once, at its first part."""
+        first: dict[str, tuple[str, str]] = {}
+        for r in self.results:
+            if r.mistake:
+                first.setdefault(r.mistake, (r.part, r.hint))
+        return list(first.values())
+
+    @property
+    def _endings(self) -> list[str]:
+        """Sentences below the parts."""
+        lines = list(self.notes)
+        # A crash that a part has told is not told again.
+        if self.stopped and not any(stops(self.stopped) in r.message for r in self.results):
+            lines.insert(0, f"The program {stops(self.stopped)}")
+        if self.answers is not None:
+            given = sum(bool(str(text).strip()) for text in self.answers.values())
+            lines.append(f"Questions answered: {given} of {self.task.questions}.")
+        return lines
+
+    def __str__(self) -> str:
+        name_width = max(len(r.part) for r in self.results) + 2
+        hints = dict(self.hints) if self.show_hints else {}
+        lines = [f"Task {self.task.id}: {self.task.title}"]
+        for r in self.results:
+            mark, words = STATES[r.state]
+            head = f"  {mark} {r.part:<{name_width}}"
+            lines += _wrapped(r.message or words, head)
+            if r.part in hints:
+                lines += _wrapped(f"Hint: {hints[r.part]}", " " * len(head))
+        for line in self._endings:
+            lines += _wrapped(line, "  ")
+        lines.append(self.summary)
+        if self.hints and not self.show_hints:
+            lines += _wrapped(f"There is a hint: {self.how_to_hint}", "")
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        rows = "".join(self._row(r) for r in self.results)
+        endings = "".join(f"<p>{_lines(line)}</p>" for line in self._endings)
+        return (
+            f'<div class="canim-report"><table><caption style="text-align:left">'
+            f"{escape(self.summary)}</caption>"
+            f'<thead><tr><th scope="col">Part</th><th scope="col">Result</th></tr></thead>'
+            f"<tbody>{rows}</tbody></table>{endings}</div>"
+        )
+
+    def _row(self, r: Result) -> str:
+        mark, words = STATES[r.state]
+        hint = dict(self.hints).get(r.part)
+        opened = " open" if self.show_hints else ""
+        fold = f"<details{opened}><summary>Hint</summary>{escape(hint)}</details>" if hint else ""
+        cell = "text-align:left;vertical-align:top"
+        return (
+            f'<tr class="canim-{r.state}"><th scope="row" style="{cell}">{escape(r.part)}</th>'
+            f'<td style="{cell}"><span aria-hidden="true">{mark}</span> '
+            f"{_lines(r.message or words)}{fold}</td></tr>"
+        )
+
+
+def _lines(text: str) -> str:
+    """Return `text` as HTML that keeps its lines."""
+    return escape(text).replace("\n", "<br>")
+
+
+def _wrapped(text: str, head: str) -> list[str]:
+    """Return `text` in lines, the first behind `head`, the others below its start."""
+    indent = " " * len(head)
+    lines = []
+    for line in text.split("\n"):
+        lines += textwrap.wrap(
+            line,
+            WIDTH,
+            initial_indent=indent if lines else head,
+            subsequent_indent=indent,
+            break_on_hyphens=False,
+        )
+    return lines
+
+
+def stops(crash: Crash) -> str:
+    """Return where and why the student's line failed, as the end of a sentence."""
+    if not crash.line:
+        return f"stops.\n{crash.sentence}"
+    return f"stops in line {crash.line}:\n  {crash.code}\n{crash.sentence}"
+
+
+def show(report: Report) -> None:
+    """Display `report`: HTML in a notebook, text elsewhere."""
+    if in_notebook():
+        importlib.import_module("IPython.display").display(report)
+        return
+    text = str(report)
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        for mark, plain in PLAIN_MARKS.items():
+            text = text.replace(mark, plain)
+        text = text.encode(encoding, "replace").decode(encoding)
+    print(text)
+
+
+def in_notebook() -> bool:
+    """Tell whether the program runs in a notebook, where a cell shows HTML."""
+    ipython: Any = sys.modules.get("IPython")
+    shell = ipython.get_ipython() if ipython else None
+    return hasattr(shell, "kernel")

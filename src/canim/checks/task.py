@@ -1,0 +1,175 @@
+"""What a task is: its card, the student's functions, the parts that are judged, known mistakes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+BLOCKS = {
+    "interpolation": "Interpolation",
+    "warping": "Image warping",
+    "character": "Character animation",
+}
+
+
+class Unusable(Exception):
+    """What the student's function returned cannot be compared; the message says why."""
+
+
+@dataclass(frozen=True)
+class Array:
+    """Accepts an array, or nested lists or tuples, of the shape that the arguments ask for.
+
+    `shape` gets the arguments of the call; `words` says the shape to a student.
+    """
+
+    shape: Callable[..., tuple[int, ...]]
+    words: str
+
+    def __call__(self, result: Any, *args: Any) -> Floats:
+        """Return `result` as an array, or raise `Unusable`."""
+        if result is None:
+            raise Unusable("returns nothing (None). Is the line with return missing?")
+        try:
+            array = np.asarray(result)
+            if array.dtype.kind not in "biufO":
+                raise TypeError
+            array = array.astype(float)
+        except (TypeError, ValueError):
+            raise Unusable(f"returns {_kind(result)}, expected {self.words}.") from None
+        expected = self.shape(*args)
+        if array.shape != expected:
+            raise Unusable(
+                f"returns an array of shape {array.shape}, expected {expected}: {self.words}."
+            )
+        return array
+
+
+def _kind(value: Any) -> str:
+    name = type(value).__name__
+    return {
+        "str": "a text",
+        "list": "a list that is not a table of numbers",
+        "tuple": "a tuple that is not a table of numbers",
+        "ndarray": "an array that does not hold numbers",
+        "function": "a function",
+    }.get(name, f"a value of type {name}")
+
+
+@dataclass(frozen=True)
+class Function:
+    """A function that the student completes.
+
+    `accept(result, *args)` turns what it returns into something to compare, or raises
+    `Unusable`. `reference` has the same signature; it is None where the student is free.
+    """
+
+    name: str
+    signature: str
+    accept: Callable[..., Any]
+    reference: Callable[..., Any] | None = None
+
+
+@dataclass(frozen=True)
+class Data:
+    """A value that the student chooses, such as nodes or control points."""
+
+    name: str
+    accept: Callable[[Any], Any]
+
+
+@dataclass(frozen=True)
+class Case:
+    """One set of arguments on which a part is judged; `label` names it to the student."""
+
+    args: tuple[Any, ...]
+    label: str = ""
+
+
+def _all_nan(got: Floats) -> bool:
+    return got.size > 0 and bool(np.isnan(got).all())
+
+
+def _no_place(index: tuple[int, ...], *args: Any) -> str:
+    return f"at index {', '.join(map(str, index))}" if index else ""
+
+
+def at(name: str, argument: int = 0) -> Callable[..., str]:
+    """Return a `place` for curves: the last index counts in that argument, called `name`."""
+    return lambda index, *args: f"at {name} = {args[argument][index[-1]]:.3g}"
+
+
+@dataclass(frozen=True)
+class Part:
+    """One line of the report.
+
+    `measure(program, *case.args)` is what this part compares: `program` gives the
+    student's functions and data, then the reference's, by attribute. `place(index, *args)`
+    says where the entry `index` of the measured array is ("at t = 0.5"). `expected`
+    replaces the reference's measure where there is no single right answer.
+    """
+
+    name: str
+    measure: Callable[..., Any]
+    cases: tuple[Case, ...] = (Case(()),)
+    place: Callable[..., str] = _no_place
+    expected: Callable[..., Any] | None = None
+    unwritten: Callable[[Floats], bool] = _all_nan
+    tolerance: float = 1e-6
+    describe: Callable[..., str] | None = None
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """A wrong way that is known: a hint, and functions or data that go wrong in that way.
+
+    It is recognised in a part where it gives what the student got, or, where that
+    cannot be compared, by `applies(got, expected, *args)`, in the parts named in `parts`.
+    """
+
+    name: str
+    hint: str
+    program: Mapping[str, Any]
+    applies: Callable[..., bool] | None = None
+    parts: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task of the course: all that cards, index, command line and checks know of it."""
+
+    id: str
+    name: str
+    title: str
+    block: str
+    writes: str
+    minutes: int
+    figure: str
+    questions: int
+    functions: tuple[Function, ...]
+    parts: tuple[Part, ...]
+    mistakes: tuple[Mistake, ...]
+    data: tuple[Data, ...] = ()
+    builds_on: tuple[str, ...] = ()
+    canim_functions: tuple[Callable[..., Any], ...] = field(default=())
+
+    @property
+    def file_name(self) -> str:
+        """Name of the page's script and of the starter."""
+        return f"task_{self.id.replace('.', '_')}_{self.name}.py"
+
+    @property
+    def page(self) -> str:
+        """Address of the page within the site, without its ending."""
+        return f"gallery/{self.block}/{self.file_name.removesuffix('.py')}"
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names under which the student's functions and data are looked up."""
+        return tuple(f.name for f in self.functions) + tuple(d.name for d in self.data)

@@ -1,0 +1,78 @@
+"""The command `canim`: list the tasks, get a starter, check a file."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from importlib.resources import files
+from pathlib import Path
+
+from canim import checks
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with `arguments` (those of the program by default), return its exit code."""
+    parser = argparse.ArgumentParser(prog="canim", description=__doc__)
+    commands = parser.add_subparsers(dest="command", required=True)
+    commands.add_parser("tasks", help="list the tasks of the course")
+    start = commands.add_parser("start", help="write the starter of a task into this folder")
+    start.add_argument("task", help="number of the task, as in 1.3")
+    check = commands.add_parser("check", help="check a program or notebook")
+    check.add_argument("file", type=Path, help="a .py or .ipynb file")
+    check.add_argument("--task", help="number of the task, where the file does not say it")
+    check.add_argument("--hint", action="store_true", help="show hints for known mistakes")
+    check.add_argument(
+        "--time", type=float, default=60, metavar="SECONDS", help="limit (default: %(default)s)"
+    )
+    asked = parser.parse_args(arguments)
+    if asked.command == "tasks":
+        return _tasks()
+    if asked.command == "start":
+        return _start(asked.task)
+    return _check(asked.file, asked.task, asked.hint, asked.time)
+
+
+def _tasks() -> int:
+    for block, title in checks.BLOCKS.items():
+        tasks = [task for task in checks.TASKS.values() if task.block == block]
+        if tasks:
+            print(title)
+        for task in tasks:
+            print(f"  {task.id}  {task.title} ({task.minutes} minutes)")
+    print("\nGet one into this folder with, for example: canim start 1.1")
+    return 0
+
+
+def _start(number: str) -> int:
+    try:
+        task = checks.find(number)
+    except ValueError as error:
+        return _refuse(str(error))
+    starter = (files("canim") / "starters" / task.file_name).read_text(encoding="utf-8")
+    try:
+        # Mode x: a file that is already there may hold somebody's work.
+        with open(task.file_name, "x", encoding="utf-8") as file:
+            file.write(starter)
+    except FileExistsError:
+        return _refuse(f"{task.file_name} is already here. It stays as it is.")
+    except OSError as error:
+        return _refuse(f"{task.file_name} cannot be written here: {error.strerror}.")
+    print(f"{task.file_name} is here now. Run it with: python {task.file_name}")
+    return 0
+
+
+def _check(path: Path, task: str | None, hint: bool, limit: float) -> int:
+    from canim.checks.file import UnusableFile, check_file
+
+    try:
+        report = check_file(path, task=task, hint=hint, limit=limit)
+    except UnusableFile as problem:
+        return _refuse(str(problem))
+    checks.show(report)
+    return 0 if report.done else 1
+
+
+def _refuse(sentence: str) -> int:
+    print(sentence, file=sys.stderr)
+    return 2
