@@ -1,0 +1,73 @@
+"""What the site hands out besides pages: starters, notebooks, their zip, the wheel, scripts."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import zipfile
+from html import escape
+from pathlib import Path
+
+import starter
+from sphinx.errors import ConfigError
+from sphinx.util import logging
+
+logger = logging.getLogger(__name__)
+
+ROOT = Path(__file__).parents[2]
+RELEASE = starter.release(ROOT)
+OLDEST_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
+
+
+def _wheel():
+    """Return the wheel that the site serves: the one the docs session has built."""
+    if given := os.environ.get("CANIM_WHEEL"):
+        return Path(given)
+    found = ROOT / "dist" / RELEASE.wheel
+    if not found.exists():
+        raise ConfigError(f"no {found}: build it first, or set CANIM_WHEEL")
+    return found
+
+
+def _say_how_to_install(app, config):
+    wheel = escape(_wheel().name)
+    if RELEASE.site:
+        what = f"{RELEASE.site.rstrip('/')}/wheels/{wheel}"
+        first = "Once, before the first task, type"
+    else:
+        what = wheel
+        first = f'Once, before the first task: download <a href="{{up}}wheels/{wheel}" download>{wheel}</a> and type'
+    config.install_line = (
+        f'<p class="task-install">{first} <code>python -m pip install {escape(what)}</code></p>\n'
+    )
+
+
+def _hand_out(app, exception):
+    if exception or app.builder.format != "html":
+        return
+    starters = _emptied(app.outdir / "starters")
+    for page in starter.pages(ROOT):
+        script, notebook = starter.script(page, RELEASE), starter.notebook(page, RELEASE)
+        for name, text in ((f"{page.name}.py", script), (f"{page.name}.ipynb", notebook)):
+            (starters / name).write_text(text, encoding="utf-8", newline="\n")
+        shutil.copyfile(page.path, (app.outdir / page.address).with_suffix(".py"))
+    with zipfile.ZipFile(starters / "canim-starters.zip", "w") as together:
+        for path in sorted(starters.glob("task_*")):
+            member = zipfile.ZipInfo(f"canim-starters/{path.name}", OLDEST_ZIP_TIME)
+            member.compress_type = zipfile.ZIP_DEFLATED
+            member.external_attr = 0o644 << 16
+            together.writestr(member, path.read_bytes())
+    shutil.copyfile(_wheel(), _emptied(app.outdir / "wheels") / _wheel().name)
+
+
+def _emptied(folder):
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    return folder
+
+
+def setup(app):
+    app.add_config_value("install_line", "", "env", types=str)
+    app.connect("config-inited", _say_how_to_install)
+    app.connect("build-finished", _hand_out)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

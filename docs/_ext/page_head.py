@@ -1,0 +1,84 @@
+"""What a page says of itself to search engines, and to readers who hear or type."""
+
+from __future__ import annotations
+
+import re
+from html import escape
+
+from docutils import nodes
+from downloads import RELEASE
+from task_page import fold
+
+SITE = RELEASE.site.rstrip("/")
+LONGEST = 160
+GENERATED = {
+    "genindex": "All functions and classes of canim, from A to Z.",
+    "search": "Search the pages of the canim course.",
+}
+LANDMARKS = {
+    '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="Site navigation">',
+    '<aside class="toc-drawer': '<aside aria-label="On this page" class="toc-drawer',
+    # A box that scrolls must be reached by keyboard.
+    "<pre>": '<pre tabindex="0">',
+}
+
+
+def _describe(app, pagename, templatename, context, doctree):
+    text = GENERATED.get(pagename) or _first_sentences(doctree)
+    tags = {"description": text}
+    if SITE:
+        tags |= {"og:title": context["title"], "og:description": text, "og:type": "website",
+                 "og:url": f"{SITE}/{pagename}.html"}  # fmt: skip
+    context["metatags"] = context.get("metatags", "") + "".join(
+        f'<meta {"property" if ":" in name else "name"}="{name}" content="{escape(value)}">\n'
+        for name, value in tags.items()
+    )
+
+
+def _first_sentences(doctree):
+    """Return the beginning of a page's text, cut at the end of a sentence."""
+    page = next(doctree.findall(nodes.section))
+    paragraphs = [p for p in page.findall(nodes.paragraph) if not isinstance(p.parent, fold)]
+    text = " ".join(paragraphs[0].astext().split()) if paragraphs else page[0].astext()
+    if len(text) <= LONGEST:
+        return text
+    ends = [found.end() for found in re.finditer(r"[.!?](?= )", text) if found.end() <= LONGEST]
+    return text[: ends[-1]] if ends else text[: text.rindex(" ", 0, LONGEST)] + " …"
+
+
+def _label(app):
+    """Complete what the theme's templates leave out and offer no block for."""
+    render = app.builder.templates.render
+
+    def labelled(template, context):
+        html = render(template, context)
+        for old, new in LANDMARKS.items():
+            html = html.replace(old, new)
+        return html
+
+    app.builder.templates.render = labelled
+
+
+def _map(app, exception):
+    if exception or not SITE:
+        return
+    pages = sorted(app.env.found_docs)
+    lines = [f"<url><loc>{SITE}/{page}.html</loc></url>" for page in pages]
+    (app.outdir / "sitemap.xml").write_text(
+        '<?xml version="1.0" encoding="utf-8"?>\n'
+        '<urlset xmlns="http://www.sitemaps.org/schemas/sitemap/0.9">\n'
+        + "\n".join(lines) + "\n</urlset>\n",
+        encoding="utf-8",
+    )  # fmt: skip
+
+
+def _set_address(app, config):
+    config.html_baseurl = RELEASE.site
+
+
+def setup(app):
+    app.connect("config-inited", _set_address)
+    app.connect("builder-inited", _label)
+    app.connect("html-page-context", _describe)
+    app.connect("build-finished", _map)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

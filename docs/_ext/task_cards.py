@@ -1,0 +1,63 @@
+"""The list of a block's tasks, made from the registry: `.. task-cards:: interpolation`."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from canim.checks import BLOCKS, TASKS
+from docutils import nodes
+from pictures import picture
+from sphinx.util import logging
+from sphinx.util.docutils import SphinxDirective
+from task_page import builds_on, page_link
+
+logger = logging.getLogger(__name__)
+
+FIRST_PICTURE = re.compile(
+    r"^\.\. (?:picture|film):: (\S+)/(\S+)\n +:alt: (.*)\n +:width: (\d+)\n +:height: (\d+)", re.M
+)
+THUMB_SHOWN = 240
+
+
+class TaskCards(SphinxDirective):
+    """A card for each task of a block, or a sentence where there is none yet."""
+
+    required_arguments = 1
+
+    def run(self):
+        block = self.arguments[0]
+        if block not in BLOCKS:
+            logger.warning("no block %r, only %s", block, ", ".join(BLOCKS),
+                           location=self.get_location(), type="tasks")
+        cards = [self.card(task) for task in TASKS.values() if task.block == block]
+        if not cards:
+            return [nodes.paragraph("", "The tasks of this block follow.")]
+        return [nodes.bullet_list("", *cards, classes=["task-cards"])]
+
+    def card(self, task):
+        title = nodes.paragraph("", "", classes=["task-cards-title"])
+        title += page_link(task, f"Task {task.id}: {task.title}")
+        facts = nodes.paragraph("", f"{task.minutes} minutes. Builds on ")
+        facts += [*builds_on(task), nodes.Text(".")]
+        return nodes.list_item("", *self.thumb(task), title, facts)
+
+    def thumb(self, task):
+        source = Path(self.env.srcdir, f"{task.page}.rst")
+        if not source.exists():
+            logger.warning("task %s has no page %s", task.id, task.page,
+                           location=self.get_location(), type="tasks")
+            return []
+        self.env.note_dependency(str(source))
+        found = FIRST_PICTURE.search(source.read_text(encoding="utf-8"))
+        if not found:
+            logger.warning("the page of task %s has no picture", task.id, type="tasks")
+            return []
+        folder, name, alt, width, height = found.groups()
+        size = {"width": THUMB_SHOWN, "height": round(int(height) * THUMB_SHOWN / int(width))}
+        return [picture(uri=f"{folder}/thumb/{name}", alt=f"Expected result: {alt}", **size)]
+
+
+def setup(app):
+    app.add_directive("task-cards", TaskCards)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

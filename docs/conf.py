@@ -1,0 +1,93 @@
+"""How Sphinx makes the course site. What is our own is in `_ext/`."""
+
+import sys
+from pathlib import Path
+
+import canim
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+project = "canim"
+author = "The canim contributors"
+project_copyright = author
+version = release = canim.__version__
+language = "en"
+
+extensions = [
+    "sphinx.ext.autodoc",
+    "numpydoc",
+    "sphinx_gallery.gen_gallery",
+    "myst_nb",
+    "sphinx_design",
+    "sphinxcontrib.bibtex",
+    "sphinx_copybutton",
+    # ours
+    "formulas",
+    "pictures",
+    "freshness",
+    "task_page",
+    "task_cards",
+    "downloads",
+    "page_head",
+]
+
+exclude_patterns = ["_build", "node_modules", "gallery/**/*.ipynb", "gallery/**/images"]
+nitpicky = True
+nitpick_ignore = []
+
+# -- Look ------------------------------------------------------------------
+html_theme = "furo"
+html_title = "canim"
+html_favicon = "_static/favicon.svg"
+html_static_path = ["_static"]
+html_css_files = ["course.css"]
+html_theme_options = {
+    "top_of_page_buttons": [],
+    "light_css_variables": {
+        "color-brand-primary": "#0b5c99",
+        "color-brand-content": "#0b5c99",
+        "color-brand-visited": "#0b5c99",
+    },
+    "dark_css_variables": {
+        "color-brand-primary": "#7cc0f2",
+        "color-brand-content": "#7cc0f2",
+        "color-brand-visited": "#7cc0f2",
+    },
+}
+html_copy_source = False
+html_show_sourcelink = False
+html_domain_indices = False
+html_math_renderer = "katex"
+pygments_style = "a11y-high-contrast-light"
+pygments_dark_style = "a11y-high-contrast-dark"
+
+# -- Text ------------------------------------------------------------------
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+nb_execution_mode = "off"
+bibtex_bibfiles = ["references.bib"]
+bibtex_reference_style = "author_year"
+copybutton_exclude = ".linenos, .gp, .go"
+
+# -- API -------------------------------------------------------------------
+autodoc_typehints = "none"
+autodoc_member_order = "groupwise"
+numpydoc_show_class_members = False
+numpydoc_xref_param_type = False
+
+# -- Gallery ---------------------------------------------------------------
+sphinx_gallery_conf = {
+    "examples_dirs": "../gallery",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"[\\/]task_",
+    "within_subsection_order": "FileNameSortKey",
+    "parallel": 2,
+    "reset_modules": ("matplotlib", "pictures.reset"),
+    "image_scrapers": ("pictures.scrape",),
+    "doc_module": ("canim",),
+    "capture_repr": (),
+    "css": (),
+    "download_all_examples": False,
+    "min_reported_time": 1e9,
+    "show_signature": False,
+    "write_computation_times": False,
+}
