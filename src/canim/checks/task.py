@@ -26,11 +26,13 @@ class Unusable(Exception):
 class Array:
     """Accepts an array, or nested lists or tuples, of the shape that the arguments ask for.
 
-    `shape` gets the arguments of the call; `words` says the shape to a student.
+    `shape` gets the arguments of the call; `words` says the shape to a student. Of data,
+    which is not returned, `verb` is "is".
     """
 
     shape: Callable[..., tuple[int, ...]]
     words: str
+    verb: str = "returns"
 
     def __call__(self, result: Any, *args: Any) -> Floats:
         """Return `result` as an array, or raise `Unusable`."""
@@ -42,11 +44,11 @@ class Array:
                 raise TypeError
             array = array.astype(float)
         except (TypeError, ValueError):
-            raise Unusable(f"returns {_kind(result)}, expected {self.words}.") from None
+            raise Unusable(f"{self.verb} {_kind(result)}, expected {self.words}.") from None
         expected = self.shape(*args)
         if array.shape != expected:
             raise Unusable(
-                f"returns an array of shape {array.shape}, expected {expected}: {self.words}."
+                f"{self.verb} an array of shape {array.shape}, expected {expected}: {self.words}."
             )
         return array
 
