@@ -116,10 +116,10 @@ def docs_live(session):
 def doctest(session):
     """Run the examples of every docstring, of the documentation and of README.md."""
     install(session, "tests")
+    texts = [*Path().glob("*.md"), *Path("docs").glob("*.md"), *Path("docs/course").glob("*.md")]
     session.run(
-        *["pytest", "--doctest-modules", "--pyargs", "--ignore-glob=*/canim/starters/*"],
-        *["--doctest-glob=*.md", "canim", "README.md", "CONTRIBUTING.md", "docs"],
-        *session.posargs,
+        *["pytest", "--doctest-modules", "--doctest-glob=*.md", *session.posargs],
+        *["--ignore-glob=*/canim/starters/*", "--pyargs", "canim", *map(str, sorted(texts))],
     )
 
 

@@ -1,0 +1,33 @@
+"""What README and the documentation promise in code blocks is run, and is the same everywhere."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+TEXTS = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("docs/course/**/*.md")]
+BLOCK = re.compile(r"^```(?:\{code-block\} )?(python|pycon)\n(.*?)^```", re.M | re.S)
+
+
+@pytest.mark.parametrize("path", TEXTS, ids=lambda path: path.name)
+def test_every_python_block_is_a_doctest(path):
+    for language, code in BLOCK.findall(path.read_text(encoding="utf-8")):
+        assert language == "pycon", f"{path.name}: write this block with >>>, so that it is run"
+        assert code.startswith(">>> ")
+
+
+def test_pins_name_no_address():
+    pins = (ROOT / "constraints.txt").read_text(encoding="utf-8")
+    assert "://" not in pins
+    assert all("==" in line for line in pins.splitlines() if not line.startswith((" ", "#")))
+
+
+def test_npm_lock_names_no_address():
+    assert '"resolved"' not in (ROOT / "docs/package-lock.json").read_text(encoding="utf-8")
+
+
+def test_citation_has_the_version_of_the_package():
+    from canim import __version__
+
+    assert f"\nversion: {__version__}\n" in (ROOT / "CITATION.cff").read_text(encoding="utf-8")
