@@ -41,7 +41,8 @@ def sentence(error: BaseException) -> str:
         for kind, pattern, words in _PLAIN
         if isinstance(error, kind) and re.search(pattern, text)
     )
-    name = getattr(error, "name", None)
+    quoted = re.search(r"'([^']+)'", text)
+    name = getattr(error, "name", None) or (quoted and quoted[1])
     return f"{plain.format(name=name)}\n(Python says: {own})"
 
 
@@ -55,8 +56,8 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (IndexError, "", "An index is too large: counting starts at 0 and ends one before the length."),
     (ZeroDivisionError, "", "Something is divided by zero."),
     (RecursionError, "", "A function calls itself without end."),
-    (ValueError, "broadcast|shape|dimension|aligned|matmul", "The sizes of two arrays do not match."),
-    (TypeError, "not callable", "Round brackets call a function; to take an entry use square ones."),
+    (ValueError, "broadcast|shape|dimension|aligned|matmul", "The sizes of two arrays differ."),
+    (TypeError, "not callable", "Round brackets call a function; an entry takes square ones."),
     (TypeError, "NoneType", "A value here is None: is a return missing?"),
     (TypeError, "argument", "The function is called with too few, too many or wrong arguments."),
     (TypeError, "", "A value here has the wrong type for what is done with it."),

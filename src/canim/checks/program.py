@@ -7,8 +7,9 @@ import io
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
-from types import CodeType, FrameType
+from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -95,18 +96,17 @@ class Program:
     @contextlib.contextmanager
     def _watch(self, name: str) -> Iterator[None]:
         # A profiler sees every call, however the student came by canim's function.
-        def seen(frame: FrameType, event: str, arg: Any) -> None:
-            code: CodeType = frame.f_code
-            if event == "call" and code in self._canim_codes:
-                self.uses_canim[name] = None
-
         before = sys.getprofile()
         if self._canim_codes and before is None:
-            sys.setprofile(seen)
+            sys.setprofile(partial(self._see, name))
         try:
             yield
         finally:
             sys.setprofile(before)
+
+    def _see(self, name: str, frame: FrameType, event: str, arg: Any) -> None:
+        if event == "call" and frame.f_code in self._canim_codes:
+            self.uses_canim[name] = None
 
 
 def _same(a: Any, b: Any) -> bool:

@@ -1,0 +1,175 @@
+"""Task 1.2: what "done" means for the coefficients and the curve of Hermite interpolation."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from canim import interpolation
+from canim.checks.task import Array, Case, Data, Floats, Function, Mistake, Part, Task, at
+
+WISHES = ("f(0)", "f(1)", "f'(0)", "f'(1)")
+# Those of the paper come first. They are equal to each other in three of four numbers, so
+# that many mistakes only show with the others.
+GIVEN = ((1.0, 1.0, 0.0, 1.0), (-2.0, 0.5, 3.0, -1.0), (0.0, 1.0, 0.0, 0.0))
+TIMES = np.linspace(0, 1, 11)
+
+
+def _label(given: tuple[float, ...]) -> str:
+    return ", ".join(f"{wish} = {value:g}" for wish, value in zip(WISHES, given))
+
+
+COEFFICIENTS = tuple(Case(given, _label(given)) for given in GIVEN)
+CURVES = tuple(
+    Case((times, *given), _label(given))
+    for given, times in zip(GIVEN, (TIMES, TIMES, np.array([0.0, 0.3, 1.0])))
+)
+
+
+def _row(k: int) -> Part:
+    return Part(
+        f"M, row for {'abcd'[k]}",
+        lambda program: program.M[k],
+        place=lambda index: f"number for {WISHES[index[0]]}",
+        expected=lambda: interpolation.HERMITE_MATRIX[k],
+    )
+
+
+def _any_nan(got: Floats) -> bool:
+    # A row of M that is missing leaves nan in some of the results only.
+    return bool(np.isnan(got).any())
+
+
+def _with_matrix(matrix: Floats) -> dict[str, Any]:
+    return {"M": matrix} | _with_coefficients(
+        lambda f0, f1, d0, d1: matrix @ np.array([f0, f1, d0, d1])
+    )
+
+
+def _with_coefficients(coefficients: Callable[..., Any]) -> dict[str, Any]:
+    return {
+        "hermite_coefficients": coefficients,
+        "hermite_curve": lambda t, *given: np.polyval(coefficients(*given), t),
+    }
+
+
+def _wishes_in_another_order(f0: float, f1: float, d0: float, d1: float) -> Any:
+    return interpolation.HERMITE_MATRIX @ np.array([f0, d0, f1, d1])
+
+
+def _product_turned_round(f0: float, f1: float, d0: float, d1: float) -> Any:
+    return np.array([f0, f1, d0, d1]) @ interpolation.HERMITE_MATRIX
+
+
+def _powers_turned_round(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
+    return np.polyval(interpolation.hermite_coefficients(f0, f1, d0, d1)[::-1], t)
+
+
+def _constant_forgotten(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
+    return interpolation.hermite_curve(t, f0, f1, d0, d1) - f0
+
+
+def _slope_in_place_of_curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
+    return np.polyval(np.polyder(interpolation.hermite_coefficients(f0, f1, d0, d1)), t)
+
+
+M = interpolation.HERMITE_MATRIX
+
+TASK = Task(
+    id="1.2",
+    name="hermite_interpolation",
+    title="One movement from four wishes",
+    block="interpolation",
+    writes="three rows of a matrix, a product and a polynomial, 5 lines",
+    minutes=25,
+    figure="Fig. 1b",
+    questions=3,
+    builds_on=("1.1",),
+    functions=(
+        Function(
+            "hermite_coefficients",
+            "hermite_coefficients(f0, f1, d0, d1)",
+            Array(lambda *given: (4,), "the four numbers a, b, c, d"),
+            interpolation.hermite_coefficients,
+        ),
+        Function(
+            "hermite_curve",
+            "hermite_curve(t, f0, f1, d0, d1)",
+            Array(lambda t, *given: t.shape, "one number per value of t"),
+            interpolation.hermite_curve,
+        ),
+    ),
+    data=(Data("M", Array(lambda: (4, 4), "four rows of four numbers", verb="is")),),
+    parts=(
+        *(_row(k) for k in range(4)),
+        Part(
+            "coefficients",
+            lambda program, *given: program.hermite_coefficients(*given),
+            COEFFICIENTS,
+            lambda index, *given: "abcd"[index[0]],
+            unwritten=_any_nan,
+        ),
+        Part(
+            "curve",
+            lambda program, *args: program.hermite_curve(*args),
+            CURVES,
+            at("t"),
+            unwritten=_any_nan,
+        ),
+    ),
+    mistakes=(
+        Mistake(
+            "wishes in another order",
+            "In which order do the columns of M stand? The wishes need the same order.",
+            _with_coefficients(_wishes_in_another_order),
+        ),
+        Mistake(
+            "product turned round",
+            "In a product of a matrix and a list of numbers, which of the two comes first?",
+            _with_coefficients(_product_turned_round),
+        ),
+        Mistake(
+            "columns of M in another order",
+            "Compare the second and the third column of M with the order of the wishes.",
+            _with_matrix(np.array([M[0], *M[1:, [0, 2, 1, 3]]])),
+        ),
+        Mistake(
+            "slopes exchanged in the row for b",
+            "In the row for b, which number belongs to the start slope, which to the end slope?",
+            _with_matrix(np.array([M[0], M[1, [0, 1, 3, 2]], M[2], M[3]])),
+        ),
+        Mistake(
+            "signs of the row for b",
+            "Look at the signs in the row for b.",
+            _with_matrix(np.array([M[0], -M[1], M[2], M[3]])),
+        ),
+        Mistake(
+            "rows for c and d exchanged",
+            "At t = 0 only d is left of the cubic. Which wish is the height at t = 0?",
+            _with_matrix(M[[0, 1, 3, 2]]),
+        ),
+        Mistake(
+            "the four equations in place of M",
+            "These rows take a, b, c, d and give the wishes. M goes the other way.",
+            _with_matrix(np.array([M[0], [1, 1, 1, 1], [0, 0, 1, 0], [3, 2, 1, 0]])),
+        ),
+        Mistake(
+            "powers turned round",
+            "Which of the four numbers belongs to the highest power of t?",
+            {"hermite_curve": _powers_turned_round},
+        ),
+        Mistake(
+            "constant forgotten",
+            "Your curve has the right shape at the wrong height: is every term there?",
+            {"hermite_curve": _constant_forgotten},
+        ),
+        Mistake(
+            "slope in place of the curve",
+            "This is how fast the curve rises. Which formula gives its height?",
+            {"hermite_curve": _slope_in_place_of_curve},
+        ),
+    ),
+    canim_functions=(interpolation.hermite_coefficients, interpolation.hermite_curve),
+)

@@ -1,0 +1,54 @@
+"""Errors that novices make are said in plain words, with Python's own words behind."""
+
+import math
+
+import numpy as np
+import pytest
+
+from canim.checks.crash import explain, sentence
+
+PROGRAMS = {
+    "x = unknown": "The name unknown is not known here.",
+    "def f():\n    print(x)\n    x = 1\nf()": "The name x is used before it gets a value.",
+    "[1, 2][2]": "An index is too large",
+    "1 / 0": "Something is divided by zero.",
+    "def f():\n    f()\nf()": "A function calls itself without end.",
+    "import numpy as np\nnp.zeros(2) + np.zeros(3)": "The sizes of two arrays differ.",
+    "x = [1]\nx(0)": "Round brackets call a function",
+    "None + 1": "A value here is None",
+    "def f(a):\n    pass\nf()": "too few, too many or wrong arguments",
+    "'a' + 1": "A value here has the wrong type",
+    "[].push(1)": "This value has nothing called push.",
+    "import not_there": "The module not_there is not installed.",
+    "open('not there')": "A file that this line opens is not there.",
+    "import math\nmath.sqrt(-1)": "This line stopped the program.",
+    "raise KeyError": "This line stopped the program.",
+    "if True:\nx = 1": "The spaces at the start of this line",
+    "x = (1": "A bracket is opened and never closed.",
+    "if True\n    x = 1": "A colon is missing",
+    "x = = 1": "Python cannot read this line",
+}
+
+
+@pytest.mark.parametrize(("program", "words"), PROGRAMS.items())
+def test_the_message_is_plain_and_keeps_pythons_own(program, words):
+    with pytest.raises(BaseException) as caught:
+        exec(compile(program, "program.py", "exec"), {})
+    text = sentence(caught.value)
+    assert words in text
+    assert f"(Python says: {type(caught.value).__name__}" in text
+    assert "{name}" not in text
+
+
+def test_the_line_is_the_last_one_of_the_students_file():
+    with pytest.raises(np.linalg.LinAlgError) as caught:
+        np.linalg.inv(math.pi)
+    crash = explain(caught.value, lambda name: name == __file__)
+    assert crash.code == "np.linalg.inv(math.pi)"
+    assert explain(caught.value, lambda name: False).line == 0
+
+
+def test_a_syntax_error_has_its_own_line():
+    error = SyntaxError("bad", ("nowhere.py", 3, 1, "x ="))
+    assert explain(error, lambda name: True).line == 3
+    assert explain(SyntaxError("bad"), lambda name: True).line == 0

@@ -1,0 +1,131 @@
+"""How a report reads: text in a terminal, HTML in a notebook, never both."""
+
+import io
+import sys
+import types
+from html.parser import HTMLParser
+
+import pytest
+
+from canim import checks
+from canim.checks import report as reports
+from canim.checks.crash import Crash
+from canim.checks.report import Report, Result
+
+TASK = checks.TASKS["1.1"]
+RESULTS = (
+    Result("H0, start value", "done"),
+    Result("H1, end value", "differs", "at t = 1: expected 1, got <0>", "misprint", "Look & see."),
+    Result("H2, start slope", "differs", "at t = 1: expected 1, got 2", "misprint", "Look & see."),
+    Result("H3, end slope", "unwritten"),
+)
+
+
+def test_text_has_one_line_a_part_and_no_long_lines():
+    long = Result("H3, end slope", "crashed", "hermite_basis stops in line 3:\n  " + "long " * 40)
+    text = str(Report(TASK, (*RESULTS, long), notes=("A note.",)))
+    assert max(map(len, text.splitlines())) <= 90
+    assert [line.strip()[0] for line in text.splitlines()[1:5]] == ["✓", "✗", "✗", "○"]
+    assert "A note." in text
+
+
+def test_a_hint_is_shown_once_though_it_explains_two_parts():
+    assert str(Report(TASK, RESULTS, show_hints=True)).count("Look & see.") == 1
+    assert Report(TASK, RESULTS)._repr_html_().count("Look &amp; see.") == 1
+
+
+def test_where_the_program_stopped_is_told_once():
+    crash = Crash(7, "x = y", "The name y is not known here.")
+    told = Result("H0, start value", "crashed", f"hermite_basis {reports.stops(crash)}")
+    assert str(Report(TASK, (told,), stopped=crash)).count("line 7") == 1
+    other = str(Report(TASK, RESULTS[:1], stopped=crash))
+    assert "The program stops in line 7:\n    x = y" in other
+    assert not Report(TASK, RESULTS[:1], stopped=crash).done
+
+
+def test_a_crash_without_a_line_is_told_without_one():
+    assert reports.stops(Crash(0, "", "Why.")) == "stops.\nWhy."
+
+
+def test_answers_are_counted():
+    answers = {1: "yes", 2: " ", 3: ""}
+    assert "Questions answered: 1 of 3." in str(Report(TASK, RESULTS, answers=answers))
+
+
+class _Balanced(HTMLParser):
+    def __init__(self):
+        super().__init__()
+        self.open, self.text, self.seen = [], "", []
+
+    def handle_starttag(self, tag, attributes):
+        self.seen.append((tag, dict(attributes)))
+        if tag != "br":
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text += data
+
+
+@pytest.mark.parametrize("show", [False, True])
+def test_html_is_balanced_escaped_and_folds_the_hint(show):
+    page = _Balanced()
+    page.feed(Report(TASK, RESULTS, notes=("a\nb",), show_hints=show)._repr_html_())
+    assert page.open == []
+    assert "got <0>" in page.text
+    folds = [attributes for tag, attributes in page.seen if tag == "details"]
+    assert folds == [{"open": None} if show else {}]
+    assert "script" not in [tag for tag, _ in page.seen]
+
+
+def test_a_terminal_without_the_marks_gets_plain_ones(monkeypatch):
+    out = io.TextIOWrapper(io.BytesIO(), encoding="cp1252")
+    monkeypatch.setattr(sys, "stdout", out)
+    checks.show(Report(TASK, RESULTS))
+    out.flush()
+    text = out.buffer.getvalue().decode("cp1252")
+    assert "+ H0" in text
+    assert "x H1" in text
+    assert "?" not in text
+
+
+def test_a_stream_without_encoding_gets_text(monkeypatch):
+    out = io.StringIO()
+    monkeypatch.setattr(sys, "stdout", out)
+    checks.show(Report(TASK, RESULTS))
+    assert "✓ H0" in out.getvalue()
+
+
+def _notebook(monkeypatch, shown):
+    ipython = types.ModuleType("IPython")
+    ipython.get_ipython = lambda: types.SimpleNamespace(kernel=True)
+    display = types.ModuleType("IPython.display")
+    display.display = shown.append
+    monkeypatch.setitem(sys.modules, "IPython", ipython)
+    monkeypatch.setitem(sys.modules, "IPython.display", display)
+
+
+def test_a_notebook_gets_the_report_itself_and_no_text(monkeypatch, capsys):
+    shown = []
+    _notebook(monkeypatch, shown)
+    checks.check("1.1", hermite_basis=lambda t: None)
+    assert [type(report) for report in shown] == [Report]
+    assert capsys.readouterr().out == ""
+
+
+def test_a_crash_ends_a_cell_without_a_traceback(monkeypatch):
+    _notebook(monkeypatch, [])
+    with pytest.raises(checks._End) as ended:
+        checks.check("1.1", hermite_basis=lambda t: t / "a")
+    assert ended.value._render_traceback_() == []
+
+
+def test_ipython_in_a_terminal_is_no_notebook(monkeypatch):
+    ipython = types.ModuleType("IPython")
+    ipython.get_ipython = lambda: types.SimpleNamespace()
+    monkeypatch.setitem(sys.modules, "IPython", ipython)
+    assert not reports.in_notebook()
+    monkeypatch.delitem(sys.modules, "IPython")
+    assert not reports.in_notebook()

@@ -1,0 +1,62 @@
+"""What more than one folder of tests uses."""
+
+from __future__ import annotations
+
+import os
+import sys
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT / "docs/_ext"))
+os.environ["MPLBACKEND"] = "agg"
+
+
+@pytest.fixture(scope="session")
+def root() -> Path:
+    """The folder of the project."""
+    return ROOT
+
+
+@cache
+def _completed() -> dict[str, str]:
+    import solutions
+
+    return solutions.completed(ROOT)
+
+
+@pytest.fixture(scope="session")
+def completed() -> dict[str, str]:
+    """File name and text of every starter with its model solution in it."""
+    return _completed()
+
+
+@cache
+def _solved(file_name: str) -> dict[str, Any]:
+    import matplotlib.pyplot as plt
+
+    from canim import checks
+
+    program = ModuleType("solved")
+    show, checks.show = checks.show, lambda report: None
+    try:
+        exec(compile(_completed()[file_name], file_name, "exec"), vars(program))
+    finally:
+        checks.show = show
+        plt.close("all")
+    return vars(program)
+
+
+@pytest.fixture(scope="session")
+def solved():
+    """Return, for a task, the names that its model solution defines."""
+
+    def names(task) -> dict[str, Any]:
+        program = _solved(task.file_name)
+        return {name: program[name] for name in task.names}
+
+    return names

@@ -1,0 +1,225 @@
+"""The command line: tasks, start, check."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from canim import checks
+from canim.checks import file as files
+from canim.cli import main
+
+TASK = checks.TASKS["1.1"]
+FILE = TASK.file_name
+DONE = """
+import canim
+from canim.interpolation import hermite_basis
+canim.check("1.1", hermite_basis=hermite_basis)
+answers = {1: "because", 2: "", 3: ""}
+"""
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def write(name, text):
+    with open(name, "w", encoding="utf-8") as file:
+        file.write(text)
+    return name
+
+
+def test_tasks_lists_every_task(capsys):
+    assert main(["tasks"]) == 0
+    out = capsys.readouterr().out
+    assert all(f"{task.id}  {task.title}" in out for task in checks.TASKS.values())
+    assert "Interpolation" in out
+    assert ("Image warping" in out) == any(t.block == "warping" for t in checks.TASKS.values())
+
+
+def test_start_writes_the_starter_and_says_how_to_run_it(folder, capsys):
+    assert main(["start", "1.1"]) == 0
+    assert f"python {FILE}" in capsys.readouterr().out
+    assert "def hermite_basis(t):" in (folder / FILE).read_text(encoding="utf-8")
+
+
+def test_start_never_overwrites(folder, capsys):
+    write(FILE, "my work")
+    assert main(["start", "1.1"]) == 2
+    assert (folder / FILE).read_text(encoding="utf-8") == "my work"
+    assert "already here" in capsys.readouterr().err
+
+
+def test_start_names_the_tasks_there_are(capsys):
+    assert main(["start", "7.7"]) == 2
+    assert "There is no task '7.7'; there are 1.1" in capsys.readouterr().err
+
+
+def test_start_says_why_it_cannot_write(monkeypatch, capsys):
+    def refuse(*args, **kwargs):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr("builtins.open", refuse)
+    assert main(["start", "1.1"]) == 2
+    assert "cannot be written here: Permission denied" in capsys.readouterr().err
+
+
+def test_check_of_an_unedited_starter_exits_1(capsys):
+    main(["start", "1.1"])
+    assert main(["check", FILE]) == 1
+    out = capsys.readouterr().out
+    assert "1 of 4 parts done" in out
+    assert "Questions answered: 0 of 3." in out
+
+
+def test_check_of_a_finished_file_exits_0_and_marks_canims_function(capsys):
+    assert main(["check", write("my.py", DONE)]) == 0
+    out = capsys.readouterr().out
+    assert "uses canim's function" in out
+    assert "Questions answered: 1 of 3." in out
+
+
+def test_the_installed_command_gives_the_exit_code():
+    write("my.py", DONE.replace("hermite_basis(t", "x"))
+    code = "import sys; from canim.cli import main; sys.exit(main())"
+    ran = subprocess.run([sys.executable, "-c", code, "check", "my.py"], check=False, timeout=60)
+    assert ran.returncode == 0
+
+
+def test_check_hint_shows_the_hint_and_how_to_get_it(capsys):
+    write(
+        "task_1_1.py",
+        "import numpy as np\ndef hermite_basis(t):\n"
+        "    return np.array([2*t**3-3*t**2+1, -3*t**3+3*t**2, t**3-2*t**2+t, t**3-t**2])\n",
+    )
+    assert main(["check", "task_1_1.py"]) == 1
+    assert "There is a hint: canim check --hint task_1_1.py" in capsys.readouterr().out
+    assert main(["check", "--hint", "task_1_1.py"]) == 1
+    assert "Hint: Some texts misprint" in capsys.readouterr().out
+
+
+def test_check_looks_functions_up_whatever_the_file_itself_calls_or_prints(capsys):
+    write("mine.py", DONE.replace("hermite_basis=hermite_basis", "hermite_basis=None") + "print(1)")
+    assert main(["check", "mine.py"]) == 0
+    assert capsys.readouterr().out.count("Task 1.1") == 2
+
+
+def test_the_task_is_that_of_the_option_then_of_the_call_then_of_the_name(capsys):
+    write("task_1_2_x.py", DONE)
+    assert main(["check", "task_1_2_x.py"]) == 0
+    assert main(["check", "--task", "1.1", write("a.py", DONE.replace("1.1", "9.9"))]) == 0
+    assert main(["check", "--task", "7.7", "a.py"]) == 2
+    assert (
+        main(["check", write("my task 1.1.py", DONE.replace("canim.check", "(lambda *a, **k: 0)"))])
+        == 0
+    )
+    capsys.readouterr()
+    assert main(["check", write("b.py", "x = 1")]) == 2
+    assert "not a task of the course: say which one with --task" in capsys.readouterr().err
+    assert main(["check", write("task_9_9.py", "check(1)")]) == 2
+
+
+def test_a_file_that_stops_halfway_is_checked_as_far_as_it_came(capsys):
+    write("mine.py", DONE + "\nprint(undefined)\nanswers = 3\n")
+    assert main(["check", "mine.py"]) == 1
+    out = capsys.readouterr().out
+    assert "The program stops in line 7:" in out
+    assert "The name undefined is not known here." in out
+    assert out.count("✓") + out.count("+ H") == 4
+
+
+def test_a_file_that_ends_itself_is_checked():
+    assert main(["check", write("mine.py", DONE + "\nraise SystemExit(3)\n")]) == 0
+
+
+def test_answers_that_are_no_dictionary_count_as_none(capsys):
+    main(["check", write("mine.py", DONE + "\nanswers = 3\n")])
+    assert "Questions answered: 0 of 3." in capsys.readouterr().out
+
+
+def test_a_loop_without_end_is_ended(capsys):
+    assert main(["check", "--time", "3", write("mine.py", DONE + "\nwhile True: pass\n")]) == 1
+    assert "did not end within 3 seconds" in " ".join(capsys.readouterr().out.split())
+
+
+def test_a_program_that_dies_is_told(capsys):
+    assert main(["check", write("mine.py", DONE + "\nimport os; os._exit(0)\n")]) == 1
+    assert "ended before its functions could be checked" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "words"),
+    [
+        ("absent.py", None, "absent.py is not there."),
+        ("broken.py", b"x = 1\ny = (1\n", "broken.py, line 2: y = (1\nA bracket is opened"),
+        ("latin.py", "x = 'é'".encode("latin-1"), "is not a text in UTF-8"),
+        ("nul.py", b"x = 1\0", "nul.py"),
+        ("text.txt", b"x = 1", "neither a .py nor an .ipynb file"),
+        ("list.ipynb", b"[1]", "is not a Jupyter notebook"),
+        ("no.ipynb", b"{", "is not a Jupyter notebook"),
+    ],
+)
+def test_a_file_that_cannot_be_used_exits_2_with_a_sentence(folder, name, content, words, capsys):
+    if content is not None:
+        (folder / name).write_bytes(content)
+    assert main(["check", name]) == 2
+    err = capsys.readouterr().err
+    assert words in err
+    assert "Traceback" not in err
+
+
+def test_a_folder_is_refused(folder, capsys):
+    (folder / "folder.py").mkdir()
+    assert main(["check", "folder.py"]) == 2
+    assert "cannot be read" in capsys.readouterr().err
+
+
+def test_a_value_error_of_the_parser_is_told(monkeypatch, capsys):
+    def refuse(*args):
+        raise ValueError("source code string cannot contain null bytes")
+
+    write("mine.py", "x = 1")
+    monkeypatch.setattr(files.ast, "parse", refuse)
+    assert main(["check", "mine.py"]) == 2
+    assert "is not a Python program" in capsys.readouterr().err
+
+
+def notebook(*cells):
+    return json.dumps(
+        {
+            "cells": [
+                {"cell_type": "markdown", "source": ["# Title"]},
+                *({"cell_type": "code", "source": cell.splitlines(True)} for cell in cells),
+            ]
+        }
+    )
+
+
+def test_notebooks_are_checked_and_lines_for_ipython_passed_over():
+    write("n.ipynb", notebook("%pip install canim\nif 1:\n    !ls", DONE))
+    assert main(["check", "n.ipynb"]) == 0
+
+
+def test_a_crash_in_a_notebook_names_the_cells_line(capsys):
+    write("n.ipynb", notebook(DONE, "x = 1\nprint(undefined)"))
+    assert main(["check", "n.ipynb"]) == 1
+    assert "stops in line 2:\n    print(undefined)" in capsys.readouterr().out
+    write("n.ipynb", notebook(DONE, "x = ("))
+    assert main(["check", "n.ipynb"]) == 2
+    assert "n.ipynb, code cell 2, line 1" in capsys.readouterr().err
+
+
+def test_no_window_is_opened_and_the_file_runs_in_its_folder(folder):
+    (folder / "sub").mkdir()
+    (folder / "sub" / "data.txt").write_text("1", encoding="utf-8")
+    (folder / "sub" / "own_module.py").write_text("y = 1", encoding="utf-8")
+    text = DONE + (
+        "\nimport matplotlib\nassert matplotlib.get_backend().lower() == 'agg'"
+        "\nopen('data.txt').close()\nimport own_module, sys\nassert __name__ == '__main__'"
+        "\nassert len(sys.argv) == 1\nimport matplotlib.pyplot as plt\nplt.show()\n"
+    )
+    (folder / "sub" / "mine.py").write_text(text, encoding="utf-8")
+    assert main(["check", "sub/mine.py"]) == 0
