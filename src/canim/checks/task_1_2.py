@@ -10,6 +10,7 @@ import numpy as np
 from canim import interpolation
 from canim.checks.task import Array, Case, Data, Floats, Function, Mistake, Part, Task, at
 
+M = interpolation.HERMITE_MATRIX
 WISHES = ("f(0)", "f(1)", "f'(0)", "f'(1)")
 # Those of the paper come first. They are equal to each other in three of four numbers, so
 # that many mistakes only show with the others.
@@ -33,7 +34,7 @@ def _row(k: int) -> Part:
         f"M, row for {'abcd'[k]}",
         lambda program: program.M[k],
         place=lambda index: f"number for {WISHES[index[0]]}",
-        expected=lambda: interpolation.HERMITE_MATRIX[k],
+        expected=lambda: M[k],
     )
 
 
@@ -43,39 +44,38 @@ def _any_nan(got: Floats) -> bool:
 
 
 def _with_matrix(matrix: Floats) -> dict[str, Any]:
-    return {"M": matrix} | _with_coefficients(
-        lambda f0, f1, d0, d1: matrix @ np.array([f0, f1, d0, d1])
-    )
+    return _with_coefficients(lambda f0, f1, d0, d1: matrix @ np.array([f0, f1, d0, d1]), matrix)
 
 
-def _with_coefficients(coefficients: Callable[..., Any]) -> dict[str, Any]:
-    return {
-        "hermite_coefficients": coefficients,
-        "hermite_curve": lambda t, *given: np.polyval(coefficients(*given), t),
-    }
+def _with_coefficients(coefficients: Callable[..., Floats], matrix: Floats = M) -> dict[str, Any]:
+    def curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
+        a, b, c, d = coefficients(f0, f1, d0, d1)
+        return a * t**3 + b * t**2 + c * t + d
+
+    return {"M": matrix, "hermite_coefficients": coefficients, "hermite_curve": curve}
 
 
-def _wishes_in_another_order(f0: float, f1: float, d0: float, d1: float) -> Any:
-    return interpolation.HERMITE_MATRIX @ np.array([f0, d0, f1, d1])
+def _wishes_in_another_order(f0: float, f1: float, d0: float, d1: float) -> Floats:
+    return M @ np.array([f0, d0, f1, d1])
 
 
-def _product_turned_round(f0: float, f1: float, d0: float, d1: float) -> Any:
-    return np.array([f0, f1, d0, d1]) @ interpolation.HERMITE_MATRIX
+def _product_turned_round(f0: float, f1: float, d0: float, d1: float) -> Floats:
+    return np.array([f0, f1, d0, d1]) @ M
 
 
-def _powers_turned_round(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
-    return np.polyval(interpolation.hermite_coefficients(f0, f1, d0, d1)[::-1], t)
+def _powers_turned_round(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
+    a, b, c, d = interpolation.hermite_coefficients(f0, f1, d0, d1)
+    return d * t**3 + c * t**2 + b * t + a
 
 
-def _constant_forgotten(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
+def _constant_forgotten(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
     return interpolation.hermite_curve(t, f0, f1, d0, d1) - f0
 
 
-def _slope_in_place_of_curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
-    return np.polyval(np.polyder(interpolation.hermite_coefficients(f0, f1, d0, d1)), t)
+def _slope_in_place_of_curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
+    a, b, c, _ = interpolation.hermite_coefficients(f0, f1, d0, d1)
+    return 3 * a * t**2 + 2 * b * t + c
 
-
-M = interpolation.HERMITE_MATRIX
 
 TASK = Task(
     id="1.2",
@@ -158,17 +158,17 @@ TASK = Task(
         Mistake(
             "powers turned round",
             "Which of the four numbers belongs to the highest power of t?",
-            {"hermite_curve": _powers_turned_round},
+            {"M": M, "hermite_curve": _powers_turned_round},
         ),
         Mistake(
             "constant forgotten",
             "Your curve has the right shape at the wrong height: is every term there?",
-            {"hermite_curve": _constant_forgotten},
+            {"M": M, "hermite_curve": _constant_forgotten},
         ),
         Mistake(
             "slope in place of the curve",
             "This is how fast the curve rises. Which formula gives its height?",
-            {"hermite_curve": _slope_in_place_of_curve},
+            {"M": M, "hermite_curve": _slope_in_place_of_curve},
         ),
     ),
     canim_functions=(interpolation.hermite_coefficients, interpolation.hermite_curve),
