@@ -163,6 +163,13 @@ def solutions(session):
 
 
 @nox.session(default=False)
+def picture(session):
+    """Draw the picture of README.md anew."""
+    install(session)
+    session.run("python", "docs/readme_picture.py")
+
+
+@nox.session(default=False)
 def bench(session):
     """Time canim against its peers and renew the table in docs/performance.md."""
     install(session, "bench")
