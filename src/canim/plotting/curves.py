@@ -14,6 +14,10 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
 
+# In pixels at 100 dots per inch: from a curve to its name, and from a name to the nearest
+# other curve, beyond which it does not matter how far away that is.
+_BESIDE, _FAR = 3, 60
+
 
 def label_curves(ax: Axes) -> None:
     """Write the label of each curve beside it; say of curves that are all nan: missing.
@@ -38,51 +42,75 @@ def label_curves(ax: Axes) -> None:
     >>> [text.get_text() for text in ax.texts]
     ['up', 'down is missing']
     """
-    ax.figure.canvas.figure.draw_without_rendering()
-    named = [line for line in ax.lines if not str(line.get_label()).startswith("_")]
-    drawn = {line: _pixels(ax, line) for line in named}
-    taken = [points for line in ax.lines if len(points := drawn.get(line, _pixels(ax, line)))]
+    figure: Any = ax.figure.figure  # the whole one, also where ax is in a subfigure
+    figure.draw_without_rendering()
     inside = ax.get_window_extent()
-    size = ax.figure.dpi / 72 * 12
+    pixel = figure.dpi / 100
+    drawn = {line: _pixels(line) for line in ax.lines}
+    names = [_corners_and_middles(text.get_window_extent()) for text in ax.texts]
     missing = 0
-    for line, points in drawn.items():
-        name = str(line.get_label())
-        style: dict[str, Any] = {"color": line.get_color(), "fontsize": 12}
+    for line in ax.lines:
+        if str(line.get_label()).startswith("_"):
+            continue
+        points = drawn[line]
+        text = ax.text(0, 0, str(line.get_label()), color=line.get_color(), fontsize=12)
+        text.set_path_effects([effects.withStroke(linewidth=3, foreground=ax.get_facecolor())])
         if not len(points):
-            where: dict[str, Any] = {"transform": ax.transAxes, "ha": "right", "va": "top"}
-            ax.text(0.98, 0.96 - 0.08 * missing, f"{name} is missing", **style, **where)
+            text.set(text=f"{line.get_label()} is missing", transform=ax.transAxes)
+            text.set(position=(0.98, 0.96 - 0.08 * missing), ha="right", va="top")
             missing += 1
             continue
-        half = np.array([0.3 * len(name) + 0.3, 0.7]) * size
-        best = _farthest(points, half, inside, taken)
-        x, y = ax.transData.inverted().transform(best)
-        text = ax.text(x, y, name, **style, ha="center", va="center")
-        text.set_path_effects([effects.withStroke(linewidth=3, foreground=ax.get_facecolor())])
-        taken.append(best + half * np.array(list(product((-1, 0, 1), repeat=2))))
+        box = text.get_window_extent()
+        half = np.array([box.width, box.height]) / 2
+        others = [drawn[other] for other in ax.lines if other is not line] + names
+        best = _farthest(points, half, inside, others, pixel)
+        text.set(position=ax.transData.inverted().transform(best), ha="center", va="center")
+        names.append(_corners_and_middles(Bbox([best - half, best + half])))
 
 
-def _pixels(ax: Axes, line: Line2D) -> Floats:
-    """Return the points of `line` in pixels, those that are nan left out."""
+def _pixels(line: Line2D) -> Floats:
+    """Return points of `line` in pixels, with points in between, those that are nan left out."""
     xy = np.column_stack(line.get_data(orig=False)).astype(float)
-    xy = xy[np.isfinite(xy).all(axis=1)]
-    if not len(xy):
-        return np.empty((0, 2))
-    pixels = ax.transData.transform(xy)
-    # Long straight pieces get points in between, or names would be put on them.
-    steps = np.linspace(0, len(pixels) - 1, 200)
-    return np.column_stack([np.interp(steps, np.arange(len(pixels)), p) for p in pixels.T])
+    pixels = line.get_transform().transform(xy)
+    if len(pixels) > 1 and line.get_linestyle() != "None":
+        # Long straight pieces get points in between, or names would be put on them.
+        steps = np.linspace(0, len(pixels) - 1, 301)
+        pixels = np.column_stack([np.interp(steps, np.arange(len(pixels)), p) for p in pixels.T])
+    points: Floats = pixels[np.isfinite(pixels).all(axis=1)]
+    return points
 
 
-def _farthest(points: Floats, half: Floats, inside: Bbox, taken: list[Floats]) -> Floats:
+def _corners_and_middles(box: Bbox) -> Floats:
+    middle, half = np.add(box.min, box.max) / 2, np.subtract(box.max, box.min) / 2
+    points: Floats = middle + half * np.array(list(product((-1, 0, 1), repeat=2)))
+    return points
+
+
+def _farthest(
+    points: Floats, half: Floats, inside: Bbox, others: list[Floats], pixel: float
+) -> Floats:
     """Return the centre, beside the curve, whose box keeps farthest from all else."""
-    sides = np.array([(0, 1), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0)])
-    centres = (points[::4, None] + sides * half).reshape(-1, 2)
+    directions: list[Any] = [d for d in product((0, 1, -1), repeat=2) if any(d)]
+    sides = np.array(directions) * (half + _BESIDE * pixel)
+    centres = (points[::6, None] + sides).reshape(-1, 2)
     fits = np.all((centres - half > inside.min) & (centres + half < inside.max), axis=1)
     centres = centres[fits] if fits.any() else centres
-    gaps = np.full(len(centres), np.inf)
-    for other in taken:
-        # Distance from the box of the name, not from its centre.
-        apart = np.abs(centres[:, None] - other) - half * 0.9
-        gaps = np.minimum(gaps, np.hypot(*np.maximum(apart, 0).T).T.min(axis=1))
-    best: Floats = centres[np.argmax(np.minimum(gaps, 25))]
+    score = np.full(len(centres), _FAR * pixel)
+    for other in others:
+        score = np.minimum(score, _gaps(centres, half, other[::2]))
+    # On its own curve a name is hard to read; away from it, it seems to belong to another.
+    score += np.minimum(_gaps(centres, half, points), _BESIDE * pixel)
+    # Among places that are as good, one in the middle is found first.
+    middle, size = np.add(inside.min, inside.max) / 2, np.subtract(inside.max, inside.min)
+    score -= pixel * np.abs((centres - middle) / size).max(axis=1)
+    best: Floats = centres[np.argmax(score)]
     return best
+
+
+def _gaps(centres: Floats, half: Floats, points: Floats) -> Floats:
+    """Return how far the box around each centre is from the nearest point."""
+    if not len(points):
+        return np.full(len(centres), np.inf)
+    apart = np.maximum(np.abs(centres[:, None] - points) - half, 0)
+    gaps: Floats = np.hypot(apart[..., 0], apart[..., 1]).min(axis=1)
+    return gaps

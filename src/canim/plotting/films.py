@@ -1,0 +1,131 @@
+"""Films for pages: points that move along curves, and how a curve is constructed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.animation import FuncAnimation
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from numpy.typing import ArrayLike
+
+_MILLISECONDS = 40  # per frame: 25 frames in a second
+
+
+def animate_construction(
+    ax: Axes, frames: Sequence[Sequence[ArrayLike]], hold: int = 12
+) -> FuncAnimation:
+    """Make a film of a construction that ends, in every frame, in one point of a curve.
+
+    Each level is drawn as a chain of points, in a colour of its own. The last level is the
+    pen: it leaves the curve behind.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+        Where to draw; set its limits before.
+    frames : sequence of sequences of array_like, shape (n, 2)
+        For each frame the points of each level. The last level has one point.
+    hold : int
+        Number of frames for which the end is shown.
+
+    Returns
+    -------
+    matplotlib.animation.FuncAnimation
+        Keep it in a variable for as long as the figure is shown.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> from canim.interpolation import de_casteljau
+    >>> from canim.plotting import animate_construction
+    >>> corners = [(0, 0), (1, 2), (2, 0)]
+    >>> fig, ax = plt.subplots()
+    >>> film = animate_construction(ax, [de_casteljau(corners, k / 50) for k in range(51)])
+    >>> fig.canvas.draw()  # shows the first moment; plt.show() plays all
+    >>> plt.close(fig)
+    """
+    levels = [[np.asarray(level, float) for level in frame] for frame in frames]
+    pen = np.array([frame[-1][0] for frame in levels])
+    (trace,) = ax.plot([], [], color="C1", linewidth=3.5)
+    chains = [
+        ax.plot([], [], "o-", color=color, linewidth=1.5, markersize=6)[0]
+        for color in _level_colors(len(levels[0]) - 1)
+    ]
+    (dot,) = ax.plot([], [], "o", color="C1", markersize=11)
+
+    def draw(frame: int) -> list[Artist]:
+        for chain, points in zip(chains, levels[frame]):
+            chain.set_data(points[:, 0], points[:, 1])
+        trace.set_data(pen[: frame + 1, 0], pen[: frame + 1, 1])
+        dot.set_data(pen[frame : frame + 1, 0], pen[frame : frame + 1, 1])
+        return [trace, *chains, dot]
+
+    return _film(ax, draw, len(levels), hold)
+
+
+def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> FuncAnimation:
+    """Make a film of points that move, each with its name beside it.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+        Where to draw; set its limits before.
+    paths : mapping of str to array_like, shape (frames, 2)
+        For each name where its point is, frame by frame.
+    hold : int
+        Number of frames for which the end is shown.
+
+    Returns
+    -------
+    matplotlib.animation.FuncAnimation
+        Keep it in a variable for as long as the figure is shown.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> import numpy as np
+    >>> from canim.plotting import animate_points
+    >>> x = np.linspace(0, 1, 51)
+    >>> fig, ax = plt.subplots()
+    >>> film = animate_points(
+    ...     ax, {"even": np.column_stack([x, x]), "late": np.column_stack([x, x**3])}
+    ... )
+    >>> fig.canvas.draw()  # shows the first moment; plt.show() plays all
+    >>> plt.close(fig)
+    """
+    points = [np.asarray(path, float) for path in paths.values()]
+    dots, names = [], []
+    for k, (name, path) in enumerate(zip(paths, points)):
+        color = f"C{k}"
+        dots += ax.plot(*path[:1].T, "o", color=color, markersize=12)
+        # Names take turns on both sides, so that they are read where the points meet.
+        above = k % 2 == 0
+        style: dict[str, Any] = {"ha": "right" if above else "left"}
+        offset = (-12, 8) if above else (12, -20)
+        names.append(
+            ax.annotate(
+                name, path[0], xytext=offset, textcoords="offset points", color=color, **style
+            )
+        )
+
+    def draw(frame: int) -> list[Artist]:
+        for dot, name, path in zip(dots, names, points):
+            dot.set_data(path[frame : frame + 1, 0], path[frame : frame + 1, 1])
+            name.xy = (path[frame, 0], path[frame, 1])
+        return [*dots, *names]
+
+    return _film(ax, draw, len(points[0]), hold)
+
+
+def _level_colors(count: int) -> list[str]:
+    """Return a colour for each level: grey for what is given, then one after the other."""
+    return ["gray", "C0", "C2", *(f"C{k}" for k in range(3, count + 1))][:count]
+
+
+def _film(ax: Axes, draw: Any, count: int, hold: int) -> FuncAnimation:
+    frames = [*range(count), *[count - 1] * hold]
+    figure: Any = ax.figure.figure  # the whole one, also where ax is in a subfigure
+    return FuncAnimation(figure, draw, frames=frames, interval=_MILLISECONDS)

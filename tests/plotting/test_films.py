@@ -1,0 +1,81 @@
+"""Films: what every frame shows."""
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+
+from canim.plotting import animate_construction, animate_points
+
+T = np.linspace(0, 1, 11)
+LINE = np.column_stack([T, 2 * T])
+
+
+@pytest.fixture
+def ax():
+    fig, ax = plt.subplots()
+    ax.set(xlim=(-1, 2), ylim=(-1, 3))
+    yield ax
+    plt.close(fig)
+
+
+def _levels(t):
+    """A construction with two levels above its pen."""
+    corners = np.array([[0.0, 0.0], [1.0, 2.0], [2.0, 0.0]])
+    middle = (1 - t) * corners[:-1] + t * corners[1:]
+    return [corners, middle, (1 - t) * middle[:1] + t * middle[1:]]
+
+
+def _play(film):
+    """Return the numbers of the frames, drawing each."""
+    film._fig.canvas.draw()  # a film that was never drawn warns when it is deleted
+    frames = list(film.new_frame_seq())
+    for frame in frames:
+        film._draw_frame(frame)
+    return frames
+
+
+def test_a_film_has_25_frames_a_second_and_holds_its_end(ax):
+    film = animate_points(ax, {"dot": LINE}, hold=5)
+    assert film._interval == 40
+    assert _play(film) == [*range(11), *[10] * 5]
+
+
+def test_a_construction_shows_every_level_and_leaves_the_curve_behind(ax):
+    film = animate_construction(ax, [_levels(t) for t in T], hold=2)
+    trace, corners, middle, dot = ax.lines
+    _play(film)
+    assert len(trace.get_xydata()) == 11
+    film._draw_frame(5)
+    assert np.array_equal(corners.get_xydata(), _levels(0.5)[0])
+    assert np.array_equal(middle.get_xydata(), _levels(0.5)[1])
+    assert np.array_equal(dot.get_xydata(), _levels(0.5)[2])
+    assert np.array_equal(trace.get_xydata(), [_levels(t)[2][0] for t in T[:6]])
+
+
+def test_each_level_of_a_construction_has_its_own_colour(ax):
+    corners = np.arange(12.0).reshape(6, 2)
+    frame = [corners[:count] for count in range(6, 0, -1)]
+    film = animate_construction(ax, [frame, frame])
+    colors = [line.get_color() for line in ax.lines]
+    assert len(colors) == 7
+    assert len(set(colors)) == 6  # the pen has the colour of its curve
+    _play(film)
+
+
+def test_points_move_with_their_names(ax):
+    film = animate_points(ax, {"ahead": LINE, "behind": (0.5 * LINE).tolist()})
+    _play(film)
+    film._draw_frame(4)
+    ahead, behind = ax.lines
+    assert np.array_equal(ahead.get_xydata(), LINE[4:5])
+    assert np.array_equal(behind.get_xydata(), 0.5 * LINE[4:5])
+    assert [text.get_text() for text in ax.texts] == ["ahead", "behind"]
+    assert [text.get_color() for text in ax.texts] == [ahead.get_color(), behind.get_color()]
+    assert ax.texts[1].xy == pytest.approx(0.5 * LINE[4])
+
+
+def test_names_stand_on_opposite_sides_so_that_they_are_read_where_points_meet(ax):
+    film = animate_points(ax, {"one": LINE, "two": LINE})
+    _play(film)
+    one, two = (text.get_window_extent() for text in ax.texts)
+    assert not one.overlaps(two)
