@@ -301,6 +301,23 @@ def test_a_part_can_describe_its_difference_and_say_when_it_is_unwritten():
     assert message == "off by 3"
 
 
+def test_what_is_right_may_follow_from_the_students_own_data():
+    own = task(
+        data=(Data("scale", _positive),),
+        parts=(Part("scaled", lambda p: p.f(T)[0], target=lambda p: p.scale * T),),
+    )
+    assert checks.run(own, {"f": double, "scale": 2}).done
+    assert states(checks.run(own, {"f": double, "scale": 3})) == ["differs"]
+
+
+def test_a_crash_names_the_case_in_which_it_happened():
+    def f(t):
+        return double(t) if t[0] == 0 else t / "a"
+
+    message = checks.run(task(), {"f": f}).results[0].message
+    assert message.endswith("(For late t.)")
+
+
 def test_a_single_number_is_compared_without_a_largest_error():
     single = task(parts=(Part("first", lambda p: p.f(T)[0][4]),))
     message = checks.run(single, {"f": lambda t: -0.0 * double(t)}).results[0].message

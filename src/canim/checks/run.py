@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -60,14 +61,26 @@ def _compare(
         try:
             got = np.asarray(part.measure(program, *case.args), dtype=float)
         except Stopped as stopped:
-            if case.label and isinstance(stopped.problem, str):
-                raise Stopped(stopped.name, f"{stopped.problem} (For {case.label}.)") from None
-            raise
+            raise _of_case(stopped, case.label) from None
         if part.expected:
             expected = part.expected(*case.args)
+        elif part.target:
+            expected = part.target(program, *case.args)
         else:
             expected = part.measure(reference, *case.args)
         yield case.args, case.label, got, np.asarray(expected, dtype=float)
+
+
+def _of_case(stopped: Stopped, label: str) -> Stopped:
+    """Return `stopped` with the case named in its sentence."""
+    problem = stopped.problem
+    if not label:
+        return stopped
+    if isinstance(problem, Crash):
+        return Stopped(
+            stopped.name, replace(problem, sentence=f"{problem.sentence} (For {label}.)")
+        )
+    return Stopped(stopped.name, f"{problem} (For {label}.)")
 
 
 def _result_of_stop(part: Part, stopped: Stopped, told: set[str]) -> Result:
