@@ -73,7 +73,8 @@ def bernstein_basis(degree: int, t: ArrayLike) -> Floats:
     if degree > _LARGEST_DEGREE:
         raise ValueError(f"degree must be at most {_LARGEST_DEGREE}, but is {degree}.")
     parameters = floats(t, "t")
-    return finite(basis_rows(degree, parameters.ravel()), "t").reshape(-1, *parameters.shape)
+    basis = finite(basis_rows(degree, parameters.ravel()), "t")
+    return basis.reshape(degree + 1, *parameters.shape)
 
 
 def bezier_curve(control_points: ArrayLike, t: ArrayLike) -> Floats:
@@ -123,7 +124,7 @@ def bezier_curve(control_points: ArrayLike, t: ArrayLike) -> Floats:
     evaluate = _horner if 1 <= len(corners) - 1 <= 3 else _bernstein_sum
     with np.errstate(over="ignore", invalid="ignore"):
         curve = evaluate(corners, flat)
-    return finite(curve, "control_points and t").reshape(*parameters.shape, -1)
+    return finite(curve, "control_points and t").reshape(*parameters.shape, corners.shape[1])
 
 
 def de_casteljau(control_points: ArrayLike, t: float) -> list[Floats]:
