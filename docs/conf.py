@@ -37,9 +37,10 @@ nitpick_ignore = []
 
 # -- Look ------------------------------------------------------------------
 html_theme = "furo"
-html_title = "canim"
+html_title = "Computer animation with canim"
 html_favicon = "_static/favicon.svg"
 html_static_path = ["_static"]
+templates_path = ["_templates"]
 html_css_files = ["course.css"]
 html_theme_options = {
     "top_of_page_buttons": [],
@@ -56,6 +57,7 @@ html_theme_options = {
 }
 html_copy_source = False
 html_show_sourcelink = False
+html_scaled_image_link = False
 html_domain_indices = False
 html_math_renderer = "katex"
 pygments_style = "a11y-high-contrast-light"

@@ -9,10 +9,10 @@ from html import escape
 from pathlib import Path
 
 import starter
+from canim.checks import TASKS
+from docutils import nodes
 from sphinx.errors import ConfigError
-from sphinx.util import logging
-
-logger = logging.getLogger(__name__)
+from sphinx.util.docutils import SphinxDirective
 
 ROOT = Path(__file__).parents[2]
 RELEASE = starter.release(ROOT)
@@ -36,10 +36,29 @@ def _say_how_to_install(app, config):
         first = "Once, before the first task, type"
     else:
         what = wheel
-        first = f'Once, before the first task: download <a href="{{up}}wheels/{wheel}" download>{wheel}</a> and type'
+        link = f'<a href="{{up}}wheels/{wheel}" download>{wheel}</a>'
+        first = f"Once, before the first task: download {link} and type"
     config.install_line = (
         f'<p class="task-install">{first} <code>python -m pip install {escape(what)}</code></p>\n'
     )
+
+
+class Start(SphinxDirective):
+    """`.. start::` puts buttons: the first task, all starters, the wheel."""
+
+    def run(self):
+        up = "../" * self.env.docname.count("/")
+        first = next(iter(TASKS.values()))
+        buttons = {
+            f"Start with Task {first.id}": f"{first.page}.html",
+            "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
+            "canim <span>(.whl)</span>": f"wheels/{_wheel().name}",
+        }
+        links = "".join(
+            f'<a href="{up}{escape(address)}" class="button">{text}</a>'
+            for text, address in buttons.items()
+        )
+        return [nodes.raw("", f'<p class="buttons">{links}</p>', format="html")]
 
 
 def _hand_out(app, exception):
@@ -68,6 +87,7 @@ def _emptied(folder):
 
 def setup(app):
     app.add_config_value("install_line", "", "env", types=str)
+    app.add_directive("start", Start)
     app.connect("config-inited", _say_how_to_install)
     app.connect("build-finished", _hand_out)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -13,6 +13,7 @@ import re
 import shutil
 import subprocess
 from functools import cache
+from html import escape
 from pathlib import Path
 
 from docutils import nodes
@@ -64,12 +65,12 @@ def render(tex, *, display=False):
 def _rendered_or_warned(node, *, display):
     tex = node.astext().strip()
     if display and not node.get("no-wrap", node.get("nowrap")) and r"\\" in tex:
-        tex = rf"\begin{{split}}{tex}\end{{split}}"
+        tex = rf"\begin{{aligned}}{tex}\end{{aligned}}"
     try:
         return render(tex, display=display)
     except ValueError as error:
         logger.warning("formula: %s", error, location=node, type="formula")
-        return f"<code>{nodes.Text(tex).astext()}</code>"
+        return f"<code>{escape(tex)}</code>"
 
 
 def visit_math(self, node):

@@ -18,6 +18,8 @@ GENERATED = {
 LANDMARKS = {
     '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="Site navigation">',
     '<aside class="toc-drawer': '<aside aria-label="On this page" class="toc-drawer',
+    # docutils' roles for citations are no longer allowed inside a list.
+    'role="doc-biblioentry"': 'role="listitem"',
     # A box that scrolls must be reached by keyboard.
     "<pre>": '<pre tabindex="0">',
 }

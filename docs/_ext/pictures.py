@@ -86,7 +86,7 @@ def _save_picture(figure, path):
 def _save_thumb(picture):
     folder = picture.parent / "thumb"
     folder.mkdir(exist_ok=True)
-    _save_small(picture, folder / picture.name, THUMB_WIDTH)
+    _save_small(picture, folder / f"{picture.stem}_thumb.png", THUMB_WIDTH)
 
 
 def _save_small(source, target, width=None):

@@ -15,7 +15,7 @@ from task_page import builds_on, page_link
 logger = logging.getLogger(__name__)
 
 FIRST_PICTURE = re.compile(
-    r"^\.\. (?:picture|film):: (\S+)/(\S+)\n +:alt: (.*)\n +:width: (\d+)\n +:height: (\d+)", re.M
+    r"^\.\. (?:picture|film):: (\S+)/(\S+)\.png\n +:alt: (.*)\n +:width: (\d+)\n +:height: (\d+)", re.M
 )
 THUMB_SHOWN = 240
 
@@ -55,7 +55,7 @@ class TaskCards(SphinxDirective):
             return []
         folder, name, alt, width, height = found.groups()
         size = {"width": THUMB_SHOWN, "height": round(int(height) * THUMB_SHOWN / int(width))}
-        return [picture(uri=f"{folder}/thumb/{name}", alt=f"Expected result: {alt}", **size)]
+        return [picture(uri=f"{folder}/thumb/{name}_thumb.png", alt=f"Expected result: {alt}", **size)]
 
 
 def setup(app):

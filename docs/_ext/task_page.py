@@ -78,7 +78,7 @@ def _fold_code(page):
             if part.next_node(nodes.title).astext() == "Your task":
                 return
             for code in part.findall(nodes.literal_block):
-                if code["language"] == "python":
+                if code["language"].lower() == "python":
                     _put_behind("How this picture is drawn", code)
 
 
@@ -102,9 +102,9 @@ def _card(app, task, docname):
     )
     buttons = nodes.raw(
         "",
-        '<p class="task-buttons">'
-        f'<a href="{starter}" download>Download starter <span>(.py)</span></a>'
-        f'<a href="{starter.removesuffix(".py")}.ipynb" download>Notebook'
+        '<p class="buttons">'
+        f'<a href="{starter}" class="button" download>Download starter <span>(.py)</span></a>'
+        f'<a href="{starter.removesuffix(".py")}.ipynb" class="button" download>Notebook'
         " <span>(.ipynb)</span></a></p>\n",
         format="html",
     )

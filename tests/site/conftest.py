@@ -1,0 +1,132 @@
+"""A server for the built site, and a browser that reads it: pytest tests/site --site DIR."""
+
+import shutil
+import threading
+from functools import cached_property, partial
+from html.parser import HTMLParser
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+MOUNT = "/some/folder"  # of the server: a site at its root would hide wrong addresses
+
+
+def pytest_addoption(parser):
+    default = ROOT / "docs/_build/html"
+    parser.addoption("--site", type=Path, default=default, help="folder of the built site")
+
+
+def pytest_generate_tests(metafunc):
+    site = metafunc.config.getoption("--site")
+    pages = sorted(path.relative_to(site).as_posix() for path in site.rglob("*.html"))
+    if not pages:
+        raise pytest.UsageError(f"no pages in {site}: build the site first (nox -s docs)")
+    if "page" in metafunc.fixturenames:
+        metafunc.parametrize("page", pages)
+    if "task_page" in metafunc.fixturenames:
+        metafunc.parametrize("task_page", [page for page in pages if "/task_" in page])
+
+
+@pytest.fixture(scope="session")
+def site(request):
+    return request.config.getoption("--site").resolve()
+
+
+class Handler(SimpleHTTPRequestHandler):
+    extensions_map = SimpleHTTPRequestHandler.extensions_map | {".woff2": "font/woff2"}
+
+    def translate_path(self, path):
+        if not path.startswith(f"{MOUNT}/"):
+            return str(Path(self.directory, "not", "there"))
+        return super().translate_path(path.removeprefix(MOUNT))
+
+    def log_message(self, *args):
+        pass
+
+
+@pytest.fixture(scope="session")
+def address(site):
+    """Address of the site on a server of ours."""
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=str(site)))
+    thread = threading.Thread(target=server.serve_forever)
+    thread.start()
+    yield f"http://127.0.0.1:{server.server_port}{MOUNT}"
+    server.shutdown()
+    thread.join()
+    server.server_close()
+
+
+@pytest.fixture(scope="session")
+def chromium():
+    from playwright.sync_api import sync_playwright
+
+    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
+    found = next(filter(None, map(shutil.which, names)), None)
+    with sync_playwright() as playwright:
+        # Without a browser of the system, playwright looks for its own.
+        browser = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def visit(chromium, address):
+    """Open a page of the site; what it says on the console and asks of servers is kept."""
+    contexts = []
+
+    def open_page(name, **options):
+        context = chromium.new_context(**{"viewport": {"width": 1280, "height": 900}} | options)
+        contexts.append(context)
+        page = context.new_page()
+        page.said, page.asked, page.failed = [], [], []
+        page.on("console", lambda message: page.said.append(message.text))
+        page.on("pageerror", lambda error: page.said.append(str(error)))
+        page.on("request", lambda request: page.asked.append(request.url))
+        page.on("requestfailed", lambda request: page.failed.append(request.url))
+        page.on("response", lambda r: page.failed.append(r.url) if r.status >= 400 else None)
+        page.goto(f"{address}/{name}", wait_until="load")
+        return page
+
+    yield open_page
+    for context in contexts:
+        context.close()
+
+
+class Document(HTMLParser):
+    """What the tests ask of a page's source."""
+
+    VOID = frozenset("area base br col embed hr img input link meta source track wbr".split())
+
+    def __init__(self, path):
+        super().__init__()
+        self.elements, self._open = [], []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attributes):
+        element = {"tag": tag, "text": "", **dict(attributes)}
+        self.elements.append(element)
+        if tag not in self.VOID:
+            self._open.append(element)
+
+    def handle_endtag(self, tag):
+        while self._open and self._open.pop()["tag"] != tag:
+            pass
+
+    def handle_data(self, text):
+        for element in self._open:
+            element["text"] += text
+
+    def all(self, *tags):
+        return [element for element in self.elements if element["tag"] in tags]
+
+    @cached_property
+    def ids(self):
+        return [e["id"] for e in self.elements if "id" in e]
+
+
+@pytest.fixture(scope="session")
+def documents(site):
+    """All pages, by their address within the site."""
+    return {path.relative_to(site).as_posix(): Document(path) for path in site.rglob("*.html")}
