@@ -49,12 +49,12 @@ def animate_construction(
     """
     levels = [[np.asarray(level, float) for level in frame] for frame in frames]
     pen = np.array([frame[-1][0] for frame in levels])
-    (trace,) = ax.plot([], [], color="C1", linewidth=3.5)
+    (trace,) = ax.plot([], [], color="C0", linewidth=3.5)
     chains = [
         ax.plot([], [], "o-", color=color, linewidth=1.5, markersize=6)[0]
         for color in _level_colors(len(levels[0]) - 1)
     ]
-    (dot,) = ax.plot([], [], "o", color="C1", markersize=11)
+    (dot,) = ax.plot([], [], "o", color="C0", markersize=11)
 
     def draw(frame: int) -> list[Artist]:
         for chain, points in zip(chains, levels[frame]):
@@ -122,7 +122,7 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
 
 def _level_colors(count: int) -> list[str]:
     """Return a colour for each level: grey for what is given, then one after the other."""
-    return ["gray", "C0", "C2", *(f"C{k}" for k in range(3, count + 1))][:count]
+    return ["gray", *(f"C{k}" for k in range(1, count))]
 
 
 def _film(ax: Axes, draw: Any, count: int, hold: int) -> FuncAnimation:
