@@ -8,7 +8,7 @@ You draw the curves that say how strongly each control point pulls at each momen
 drawing programs and camera paths mix their points with exactly these weights.
 """
 
-from math import comb
+from math import comb  # noqa: F401
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -26,7 +26,7 @@ t = np.linspace(0, 1, 101)  # 101 moments from the start to the end
 # For the degree :math:`n = 3` there are four curves, one for each control point. Your
 # program draws them for any :math:`n`.
 
-from canim import interpolation  # noqa: E402
+from canim import interpolation
 
 # Picture: Four curves for t from 0 to 1. b0 falls from 1 to 0. b1 is a hill with its top
 # at one third, b2 the same hill mirrored with its top at two thirds. b3 rises from 0 to 1.
