@@ -47,32 +47,32 @@ def _with_matrix(matrix: Floats) -> dict[str, Any]:
     return _with_coefficients(lambda f0, f1, d0, d1: matrix @ np.array([f0, f1, d0, d1]), matrix)
 
 
-def _with_coefficients(coefficients: Callable[..., Floats], matrix: Floats = M) -> dict[str, Any]:
-    def curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
+def _with_coefficients(coefficients: Callable[..., Any], matrix: Floats = M) -> dict[str, Any]:
+    def curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
         a, b, c, d = coefficients(f0, f1, d0, d1)
         return a * t**3 + b * t**2 + c * t + d
 
     return {"M": matrix, "hermite_coefficients": coefficients, "hermite_curve": curve}
 
 
-def _wishes_in_another_order(f0: float, f1: float, d0: float, d1: float) -> Floats:
+def _wishes_in_another_order(f0: float, f1: float, d0: float, d1: float) -> Any:
     return M @ np.array([f0, d0, f1, d1])
 
 
-def _product_turned_round(f0: float, f1: float, d0: float, d1: float) -> Floats:
+def _product_turned_round(f0: float, f1: float, d0: float, d1: float) -> Any:
     return np.array([f0, f1, d0, d1]) @ M
 
 
-def _powers_turned_round(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
+def _powers_turned_round(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
     a, b, c, d = interpolation.hermite_coefficients(f0, f1, d0, d1)
     return d * t**3 + c * t**2 + b * t + a
 
 
-def _constant_forgotten(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
+def _constant_forgotten(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
     return interpolation.hermite_curve(t, f0, f1, d0, d1) - f0
 
 
-def _slope_in_place_of_curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Floats:
+def _slope_in_place_of_curve(t: Floats, f0: float, f1: float, d0: float, d1: float) -> Any:
     a, b, c, _ = interpolation.hermite_coefficients(f0, f1, d0, d1)
     return 3 * a * t**2 + 2 * b * t + c
 
