@@ -49,7 +49,9 @@ def install(session, *groups, lowest=False):
     named = nox.project.dependency_groups(PROJECT, "build", *groups)
     session.install(*PINNED, *dependencies, *named)
     if lowest:
-        session.install(*(dependency.replace(">=", "==") for dependency in dependencies))
+        # Newer IPythons draw nothing with matplotlib 3.8, newer pyparsings warn about it.
+        exact = [dependency.replace(">=", "==") for dependency in dependencies]
+        session.install(*exact, "ipython<9.15", "pyparsing<3.3")
     session.run("python", "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder), silent=True)
     session.install("--force-reinstall", "--no-deps", str(wheel))
     stamp.write_text(digest)
@@ -202,7 +204,7 @@ def build(session):
     if (again / wheel.name).read_bytes() != wheel.read_bytes():
         session.error("The wheel made from the sdist differs from the wheel.")
 
-    session.run("python", "-m", "venv", str(scratch / "empty"))
+    session.run("python", "-m", "venv", "--upgrade-deps", str(scratch / "empty"))
     programs = scratch / "empty" / ("Scripts" if os.name == "nt" else "bin")
     pip = [str(programs / "python"), "-m", "pip", "install", "--quiet"]
     session.run(*pip, *PINNED, *PROJECT["project"]["dependencies"], external=True)

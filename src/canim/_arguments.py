@@ -84,10 +84,11 @@ def rows(value: ArrayLike, name: str, count: int) -> Floats:
 def whole_number(value: Any, name: str, minimum: int) -> int:
     """Return `value` as an int that is not below `minimum`."""
     try:
-        number = operator.index(value)
+        # numpy 2.0 takes its own True and False for indices, with a warning.
+        number = None if isinstance(value, bool | np.bool_) else operator.index(value)
     except TypeError:
         number = None
-    if number is None or isinstance(value, bool):
+    if number is None:
         raise TypeError(f"{name} must be a whole number, but is {reprlib.repr(value)}.")
     if number < minimum:
         raise ValueError(f"{name} must be a whole number from {minimum} up, but is {number}.")
