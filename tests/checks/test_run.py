@@ -186,6 +186,20 @@ def test_changing_the_arguments_is_told_and_does_no_harm():
     assert T[0] == 0
 
 
+def test_a_function_that_is_handed_to_another_stops_under_its_own_name():
+    functions = (
+        Function("f", "f(t)", Array(lambda t: t.shape, "one number per t")),
+        Function("g", "g(f, t)", Array(lambda f, t: t.shape, "one number per t")),
+    )
+    parts = (Part("g", lambda p, t: p.g(p.f, t), (Case((T,)),)),)
+    changed = task(functions=functions, parts=parts, mistakes=(), canim_functions=())
+    (crashed,) = checks.run(changed, {"f": lambda t: t + "1", "g": lambda f, t: f(t)}).results
+    assert crashed.state == "crashed"
+    assert crashed.message.startswith("f stops")
+    (unusable,) = checks.run(changed, {"f": lambda t: 1.0, "g": lambda f, t: f(t)}).results
+    assert unusable.message == "f returns an array of shape (), expected (5,): one number per t."
+
+
 def test_canims_own_function_is_marked():
     report = checks.run(task(), {"f": lambda t: canims_double(t)})
     assert report.notes == ("f uses canim's function.",)

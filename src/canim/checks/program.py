@@ -82,6 +82,9 @@ class Program:
         try:
             with _quiet(), self._watch(function.name):
                 result = call(*own)
+        except Stopped as stopped:
+            # One of the student's functions was an argument: the fault is in that one.
+            return stopped
         except Exception as error:
             return Stopped(function.name, explain(error, _is_students(call)))
         except SystemExit:
