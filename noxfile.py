@@ -51,7 +51,7 @@ def install(session, *groups, lowest=False):
     if lowest:
         # Newer IPythons draw nothing with matplotlib 3.8, newer pyparsings warn about it.
         exact = [dependency.replace(">=", "==") for dependency in dependencies]
-        session.install(*exact, "ipython<9.15", "pyparsing<3.3")
+        session.install(*exact, "ipython<9.16", "pyparsing<3.3")
     session.run("python", "-m", "hatchling", "build", "-t", "wheel", "-d", str(folder), silent=True)
     session.install("--force-reinstall", "--no-deps", str(wheel))
     stamp.write_text(digest)
@@ -152,7 +152,7 @@ def lint(session):
 @nox.session(default=False, requires=["docs"])
 def browser(session):
     """Test the built site in a real browser (Chromium)."""
-    install(session, "browser")
+    install(session, "docs", "browser")
     install_node_packages(session)
     session.run("pytest", "tests/site", "--site", str(SITE), *session.posargs)
 

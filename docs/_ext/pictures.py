@@ -49,15 +49,16 @@ def scrape(block, block_vars, gallery_conf):
     for kind, text in COMMENT.findall(block.content + "\n"):
         texts[kind].append(" ".join(re.sub(r"^# ?", "", text, flags=re.M).split()))
     variables = block_vars["example_globals"].values()
-    films = {v._fig.number: v for v in variables if isinstance(v, Animation)}
+    # By the figure, not by its number: an animation of an earlier block is still a variable.
+    films = {v._fig: v for v in variables if isinstance(v, Animation)}
     rst = [_report(report) for report in _reports]
     _reports.clear()
     for number, path in zip(plt.get_fignums(), block_vars["image_path_iterator"], strict=False):
         path = Path(path)
-        kind = "Film" if number in films else "Picture"
         figure = plt.figure(number)
+        kind = "Film" if figure in films else "Picture"
         if kind == "Film":
-            _save_film(films[number], path)
+            _save_film(films[figure], path)
         else:
             _save_picture(figure, path)
         if path.stem.endswith("_001"):

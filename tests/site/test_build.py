@@ -1,0 +1,89 @@
+"""The build of the site: the same bytes every time, and a warning for what is wrong."""
+
+import filecmp
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+
+
+def sphinx(source, target, *options):
+    command = [sys.executable, "-m", "sphinx", "-q", *options, source, target]
+    environment = os.environ | {"PYTHONPATH": str(ROOT / "docs/_ext"), "PYTHONHASHSEED": "7"}
+    return subprocess.run(
+        command, capture_output=True, text=True, encoding="utf-8", env=environment, check=False
+    )
+
+
+def test_second_build_gives_the_same_bytes(site, tmp_path):
+    """Built from nothing, in another folder, with another hash seed."""
+    copy = tmp_path / "copy"
+    generated = shutil.ignore_patterns("_build", "node_modules", "__pycache__", "*.pyc")
+    shutil.copytree(ROOT / "docs", copy / "docs", ignore=generated)
+    shutil.rmtree(copy / "docs/gallery", ignore_errors=True)
+    (copy / "docs/node_modules").symlink_to(ROOT / "docs/node_modules")
+    shutil.copytree(ROOT / "gallery", copy / "gallery", ignore=generated)
+    (copy / "src/canim").mkdir(parents=True)
+    for name in ("pyproject.toml", "src/canim/__init__.py"):
+        shutil.copyfile(ROOT / name, copy / name)
+    again = tmp_path / "html"
+    built = sphinx(copy / "docs", again, "-W", "-n", "-d", tmp_path / "doctrees")
+    assert built.stderr == ""
+    assert built.returncode == 0
+    files = {path.relative_to(site) for path in site.rglob("*") if path.is_file()}
+    assert files == {path.relative_to(again) for path in again.rglob("*") if path.is_file()}
+    _, different, _ = filecmp.cmpfiles(site, again, files, shallow=False)
+    assert different == []
+
+
+@pytest.fixture
+def warnings(tmp_path):
+    """Build one page with one of our extensions, alone; return the page and the warnings."""
+
+    def build(text, extension, *options):
+        source, target = tmp_path / "source", tmp_path / "html"
+        source.mkdir()
+        (source / "index.rst").write_text(text, encoding="utf-8")
+        (source / "dot.png").write_bytes((ROOT / "docs/_static/canim.png").read_bytes())
+        built = sphinx(source, target, "-C", "-D", f"extensions={extension}", *options)
+        assert built.returncode == 0, built.stderr
+        return (target / "index.html").read_text(encoding="utf-8"), built.stderr
+
+    return build
+
+
+KATEX = ("formulas", "-D", "html_math_renderer=katex")
+
+
+def test_formula_is_rendered(warnings):
+    page, said = warnings("T\n=\n\n:math:`a^2`\n\n.. math::\n\n   a &= 1 \\\\\n   b &= 2\n", *KATEX)
+    assert said == ""
+    assert page.count("<math ") == 2
+    assert "katex/katex.css" in page
+
+
+def test_page_without_formula_links_no_style(warnings):
+    page, _ = warnings("T\n=\n", *KATEX)
+    assert "katex" not in page
+
+
+def test_wrong_formula_is_a_warning_with_its_place(warnings):
+    page, said = warnings("T\n=\n\nText.\n\n.. math:: \\frac{1\n\n:math:`\\wrong<`\n", *KATEX)
+    assert "index.rst:6: WARNING: formula: KaTeX parse error" in said
+    assert "index.rst:8: WARNING: formula: KaTeX parse error" in said
+    assert r"<code>\wrong&lt;</code>" in page
+
+
+def test_picture_without_text_is_a_warning(warnings):
+    _, said = warnings("T\n=\n\n.. picture:: /dot.png\n   :alt:\n", "pictures")
+    assert "index.rst:4: WARNING: a picture without a comment '# Picture: …' above it" in said
+
+
+def test_text_without_picture_is_a_warning(warnings):
+    _, said = warnings("T\n=\n\n.. film::\n   :alt: a dot moves\n", "pictures")
+    assert "index.rst:4: WARNING: '# Film: a dot moves' has no film below it" in said
