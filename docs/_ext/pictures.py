@@ -25,7 +25,7 @@ logger = logging.getLogger(__name__)
 CSS_DPI = 100  # a figure of 6.4 inches is 640 pixels wide on the page
 SHARP = 2  # pixels of the file per pixel of the page
 THUMB_WIDTH = 480
-COMMENT = re.compile(r"^# (Picture|Film): (.*\n(?:#.*(?:\n|\Z))*)", re.M)
+COMMENT = re.compile(r"^# (Picture|Film): (.*\n(?:#(?! Picture:| Film:).*\n)*)", re.M)
 
 _reports = []
 
