@@ -121,7 +121,7 @@ def bezier_curve(control_points: ArrayLike, t: ArrayLike) -> Floats:
     corners = control_polygon(control_points)
     parameters = floats(t, "t")
     flat = parameters.ravel()
-    evaluate = _horner if 1 <= len(corners) - 1 <= 3 else _bernstein_sum
+    evaluate = _horner if 1 <= len(corners) - 1 <= 3 else bernstein_sum
     with np.errstate(over="ignore", invalid="ignore"):
         curve = evaluate(corners, flat)
     return finite(curve, "control_points and t").reshape(*parameters.shape, corners.shape[1])
@@ -451,6 +451,17 @@ def basis_rows(degree: int, t: Floats) -> Floats:
     return rows
 
 
+def bernstein_sum(corners: Floats, t: Floats) -> Floats:
+    """Evaluate as the sum of basis functions, accurate at every degree."""
+    curve = np.empty((t.size, corners.shape[1]))
+    scratch = np.empty((len(corners), min(t.size, _block_length(len(corners)))))
+    for part in _blocks(t.size, len(corners)):
+        basis = scratch[:, : t[part].size]
+        _fill_basis(basis, t[part])
+        np.matmul(basis.T, corners, out=curve[part])
+    return curve
+
+
 def lengths(vectors: Floats) -> Floats:
     """Return the lengths of the rows; scaled, so that no square over- or underflows."""
     largest = np.abs(vectors).max(axis=-1)
@@ -474,17 +485,6 @@ def _horner(corners: Floats, t: Floats) -> Floats:
                 value += coefficient[axis]
                 value *= t[part]
             np.add(value, coefficients[0][axis], out=curve[part, axis])
-    return curve
-
-
-def _bernstein_sum(corners: Floats, t: Floats) -> Floats:
-    """Evaluate as the sum of basis functions, accurate at every degree."""
-    curve = np.empty((t.size, corners.shape[1]))
-    scratch = np.empty((len(corners), min(t.size, _block_length(len(corners)))))
-    for part in _blocks(t.size, len(corners)):
-        basis = scratch[:, : t[part].size]
-        _fill_basis(basis, t[part])
-        np.matmul(basis.T, corners, out=curve[part])
     return curve
 
 
