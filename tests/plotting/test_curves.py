@@ -101,6 +101,30 @@ def test_curves_that_are_all_nan_are_said_to_be_missing_one_below_the_other(ax):
     assert a.x1 == pytest.approx(b.x1)
 
 
+@pytest.mark.parametrize(
+    ("busy", "right", "top"),
+    [
+        ([], True, True),
+        ([(0.9, 0.9)], False, True),
+        ([(0.9, 0.9), (0.1, 0.9)], True, False),
+        ([(0.9, 0.9), (0.1, 0.9), (0.9, 0.1)], False, False),
+    ],
+)
+def test_what_is_missing_is_said_in_a_free_corner(ax, busy, right, top):
+    for x, y in busy:
+        ax.plot([x], [y], "o")
+    for name in "AB":
+        ax.plot(X, NOTHING, label=name)
+    label_curves(ax)
+    inside = ax.get_window_extent()
+    for text in ax.texts:
+        box = text.get_window_extent()
+        assert (box.x0 > (inside.x0 + inside.x1) / 2) == right
+        assert (box.y0 > (inside.y0 + inside.y1) / 2) == top
+        assert np.all(box.min >= inside.min)
+        assert np.all(box.max <= inside.max)
+
+
 def test_of_a_curve_that_is_nan_in_part_the_rest_is_named(ax):
     ax.plot(X, np.where(X < 0.7, np.nan, 0.5), label="late")
     label_curves(ax)

@@ -79,3 +79,18 @@ def test_names_stand_on_opposite_sides_so_that_they_are_read_where_points_meet(a
     _play(film)
     one, two = (text.get_window_extent() for text in ax.texts)
     assert not one.overlaps(two)
+
+
+def test_the_axes_do_not_jump_while_a_name_moves_out_of_them():
+    fig, ax = plt.subplots(layout="constrained")
+    ax.set(xlim=(0, 1), ylim=(0, 2))
+    film = animate_points(ax, {"a very long name": LINE})
+    fig.canvas.draw()
+    places = []
+    for frame in (0, 5, 10):
+        film._draw_frame(frame)
+        fig.canvas.draw()
+        places.append(ax.get_position().bounds)
+    assert places[0] == pytest.approx(places[1])
+    assert places[0] == pytest.approx(places[2])
+    plt.close(fig)

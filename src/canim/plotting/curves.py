@@ -9,6 +9,7 @@ import matplotlib.patheffects as effects
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
+from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
@@ -48,7 +49,7 @@ def label_curves(ax: Axes) -> None:
     pixel = figure.dpi / 100
     drawn = {line: _pixels(line) for line in ax.lines}
     names = [_corners_and_middles(text.get_window_extent()) for text in ax.texts]
-    missing = 0
+    missing = []
     for line in ax.lines:
         if str(line.get_label()).startswith("_"):
             continue
@@ -56,9 +57,8 @@ def label_curves(ax: Axes) -> None:
         text = ax.text(0, 0, str(line.get_label()), color=line.get_color(), fontsize=12)
         text.set_path_effects([effects.withStroke(linewidth=3, foreground=ax.get_facecolor())])
         if not len(points):
-            text.set(text=f"{line.get_label()} is missing", transform=ax.transAxes)
-            text.set(position=(0.98, 0.96 - 0.08 * missing), ha="right", va="top")
-            missing += 1
+            text.set_text(f"{line.get_label()} is missing")
+            missing.append(text)
             continue
         box = text.get_window_extent()
         half = np.array([box.width, box.height]) / 2
@@ -66,6 +66,28 @@ def label_curves(ax: Axes) -> None:
         best = _farthest(points, half, inside, others, pixel)
         text.set(position=ax.transData.inverted().transform(best), ha="center", va="center")
         names.append(_corners_and_middles(Bbox([best - half, best + half])))
+    _put_into_a_corner(ax, missing, [*drawn.values(), *names])
+
+
+def _put_into_a_corner(ax: Axes, texts: list[Text], others: list[Floats]) -> None:
+    """Put the texts below each other into the corner that is freest of `others`."""
+    if not texts:
+        return
+    axes = ax.get_window_extent()
+    boxes = [text.get_window_extent() for text in texts]
+    step = 1.4 * max(box.height for box in boxes)
+    half = np.array([max(box.width for box in boxes), step * len(boxes)]) / 2
+    # The first of the best is taken: that at the top right, where nothing is in its way.
+    signs = np.array([(1, 1), (-1, 1), (1, -1), (-1, -1)])
+    middle, size = np.add(axes.min, axes.max) / 2, np.subtract(axes.max, axes.min)
+    centres = middle + signs * (0.48 * size - half)
+    room = np.min([np.minimum(_gaps(centres, half, other), step) for other in others], axis=0)
+    corner = int(np.argmax(room))
+    x = centres[corner, 0] + signs[corner, 0] * half[0]
+    top = centres[corner, 1] + half[1]
+    for k, text in enumerate(texts):
+        text.set(position=ax.transAxes.inverted().transform((x, top - k * step)))
+        text.set(transform=ax.transAxes, va="top", ha="right" if signs[corner, 0] > 0 else "left")
 
 
 def _pixels(line: Line2D) -> Floats:
@@ -92,7 +114,7 @@ def _farthest(
     """Return the centre, beside the curve, whose box keeps farthest from all else."""
     directions: list[Any] = [d for d in product((0, 1, -1), repeat=2) if any(d)]
     sides = np.array(directions) * (half + _BESIDE * pixel)
-    centres = (points[::6, None] + sides).reshape(-1, 2)
+    centres = (points[:: max(1, len(points) // 50), None] + sides).reshape(-1, 2)
     fits = np.all((centres - half > inside.min) & (centres + half < inside.max), axis=1)
     centres = centres[fits] if fits.any() else centres
     score = np.full(len(centres), _FAR * pixel)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+import matplotlib.patheffects as effects
 import numpy as np
 from matplotlib.animation import FuncAnimation
 from matplotlib.artist import Artist
@@ -101,13 +102,18 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
     for k, (name, path) in enumerate(zip(paths, points)):
         color = f"C{k}"
         dots += ax.plot(*path[:1].T, "o", color=color, markersize=12)
-        # Names take turns on both sides, so that they are read where the points meet.
-        above = k % 2 == 0
-        style: dict[str, Any] = {"ha": "right" if above else "left"}
-        offset = (-12, 8) if above else (12, -20)
+        # Names take turns above and below, so that they are read where the points meet.
         names.append(
             ax.annotate(
-                name, path[0], xytext=offset, textcoords="offset points", color=color, **style
+                name,
+                path[0],
+                xytext=(0, 15 if k % 2 == 0 else -27),
+                textcoords="offset points",
+                ha="center",
+                color=color,
+                # Otherwise the axes make room for the name, and jump while it moves.
+                in_layout=False,
+                path_effects=[effects.withStroke(linewidth=4, foreground=ax.get_facecolor())],
             )
         )
 
