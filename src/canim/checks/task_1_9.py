@@ -1,0 +1,237 @@
+"""Task 1.9: what "done" means for the length of a curve and for points at equal distances.
+
+A sampled length or place is never exact: the tolerances accept any good approximation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from canim import interpolation
+from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task, Unusable
+
+PAPER = np.array([[5.0, -10.0], [9.0, 38.0], [38.0, -5.0], [45.0, 15.0]])
+ARCH = np.array([[0.0, 0.0], [2.0, 30.0], [30.0, 30.0], [40.0, 0.0]])
+LINE = np.array([[10.0, 20.0], [30.0, 0.0], [40.0, -10.0], [50.0, -20.0]])
+
+# With few samples, a chord more or less is seen. Two counts of samples are in use, N points
+# or N chords: they differ by 0.2 % of the length, a missing chord by 7 % at least.
+LENGTHS = (
+    Case((PAPER, 10), "10 samples"),
+    Case((ARCH, 12), "another curve, 12 samples"),
+    Case((LINE, 8), "a straight line, 8 samples"),
+)
+POINTS = (
+    Case((PAPER, 18), "18 points"),
+    Case((ARCH, 7), "another curve, 7 points"),
+    Case((LINE, 12), "a straight line, 12 points"),
+)
+ENDS, SPACING = "places: both ends", "places: equal spacing"
+
+
+def _number(result: Any, *args: Any) -> Floats:
+    numbers = Array(lambda: np.shape(result), "one number")(result)
+    if numbers.size != 1:
+        raise Unusable(f"returns {numbers.size} numbers, expected one: the length.")
+    return numbers.reshape(())
+
+
+def _length(program: Any, P: Floats, samples: int) -> Floats:
+    length: Floats = program.compute_arc_length(P, samples)
+    return length
+
+
+def _ends(program: Any, P: Floats, count: int) -> Floats:
+    ends: Floats = program.equidistant_points(P, count)[[0, -1]]
+    return ends
+
+
+def _between(program: Any, P: Floats, count: int) -> Floats:
+    points: Floats = program.equidistant_points(P, count)[1:-1]
+    return points
+
+
+def _end(index: tuple[int, ...], P: Floats, count: int) -> str:
+    return f"{'xy'[index[1]]} of the {('first', 'last')[index[0]]} point"
+
+
+def _inner(index: tuple[int, ...], P: Floats, count: int) -> str:
+    return f"{'xy'[index[1]]} of point {index[0] + 2}"
+
+
+def _chords(P: Floats, samples: int) -> Floats:
+    points = interpolation.bezier_curve(P, np.linspace(0, 1, samples))
+    return np.diff(points, axis=0)
+
+
+def _lengths(P: Floats, samples: int) -> Floats:
+    lengths: Floats = np.linalg.norm(_chords(P, samples), axis=1)
+    return lengths
+
+
+def _along(fractions: Callable[[int], Floats]) -> Callable[[Floats, int], Floats]:
+    """Return a function that places points at these fractions of the length."""
+
+    def places(P: Floats, count: int) -> Floats:
+        points = interpolation.bezier_curve(P, np.linspace(0, 1, 2001))
+        walked = np.append(0, np.cumsum(_lengths(P, 2001)))
+        goals = walked[-1] * fractions(count)
+        return np.column_stack([np.interp(goals, walked, column) for column in points.T])
+
+    return places
+
+
+def _without_last(P: Floats, count: int) -> Floats:
+    points = interpolation.equidistant_points(P, count)
+    points[-1] = np.nan
+    return points
+
+
+def _sample_behind(P: Floats, count: int) -> Floats:
+    points = interpolation.bezier_curve(P, np.linspace(0, 1, 1000))
+    walked = np.append(0, np.cumsum(_lengths(P, 1000)))
+    behind = np.searchsorted(walked, np.linspace(0, walked[-1], count), side="right") - 1
+    places: Floats = points[behind]
+    return places
+
+
+def _by_a_sample(got: Floats, expected: Floats, P: Floats, count: int) -> bool:
+    step = interpolation.arc_length(P) / (count - 1)
+    return bool(np.linalg.norm(got - expected, axis=1).max() < 0.1 * step)
+
+
+def _start_is_off(got: Floats, expected: Floats, P: Floats, count: int) -> bool:
+    away = np.linalg.norm(got - expected, axis=1)
+    return bool(0 < away[0] < 0.1 * interpolation.arc_length(P) / (count - 1))
+
+
+def _without_zero(P: Floats, count: int) -> Floats:
+    points = interpolation.bezier_curve(P, np.linspace(0, 1, 1000))[1:]
+    walked = np.cumsum(_lengths(P, 1000))
+    goals = np.linspace(0, walked[-1], count)
+    return np.column_stack([np.interp(goals, walked, column) for column in points.T])
+
+
+TASK = Task(
+    id="1.9",
+    name="plot_bezier_equidistant_points",
+    title="Walk a curve in equal steps",
+    block="interpolation",
+    writes="a sum of chords and a walk along the curve, about 8 lines",
+    minutes=40,
+    figure="Figs. 6a and 6b",
+    questions=3,
+    builds_on=("1.7",),
+    functions=(
+        Function(
+            "compute_arc_length",
+            "compute_arc_length(P, samples)",
+            _number,
+            interpolation.arc_length,
+        ),
+        Function(
+            "equidistant_points",
+            "equidistant_points(P, count)",
+            Array(lambda P, count: (count, 2), "one row per point, both ends included"),
+            interpolation.equidistant_points,
+        ),
+    ),
+    parts=(
+        Part("length", _length, LENGTHS, tolerance=0.01),
+        # 3 in 10,000 of the size are a few in 1000 of the distance from point to point.
+        Part(ENDS, _ends, POINTS, _end, tolerance=3e-4),
+        Part(SPACING, _between, POINTS, _inner, tolerance=3e-4),
+    ),
+    mistakes=(
+        Mistake(
+            "last chord missing",
+            "Ten points have nine chords. How many does your loop add?",
+            {"compute_arc_length": lambda P, samples: _lengths(P, samples)[:-1].sum()},
+            parts=("length",),
+        ),
+        Mistake(
+            "squares added",
+            "You add the squares of the chords. What is missing before the sum?",
+            {"compute_arc_length": lambda P, samples: (_lengths(P, samples) ** 2).sum()},
+            parts=("length",),
+        ),
+        Mistake(
+            "along the axes",
+            "A chord goes straight, not first along x and then along y.",
+            {"compute_arc_length": lambda P, samples: np.abs(_chords(P, samples)).sum()},
+            parts=("length",),
+        ),
+        Mistake(
+            "from end to end",
+            "This is the straight way from the start to the end, without the curve between.",
+            {"compute_arc_length": lambda P, samples: float(np.linalg.norm(P[-1] - P[0]))},
+            parts=("length",),
+        ),
+        Mistake(
+            "control polygon",
+            "This is the length of the control polygon. The chords join points of the curve.",
+            {
+                "compute_arc_length": lambda P, samples: np.linalg.norm(
+                    np.diff(P, axis=0), axis=1
+                ).sum()
+            },
+            parts=("length",),
+        ),
+        Mistake(
+            "a single chord",
+            "This is the last chord alone. Does your loop add, or does it begin anew?",
+            {"compute_arc_length": lambda P, samples: _lengths(P, samples)[-1]},
+            parts=("length",),
+        ),
+        Mistake(
+            "equal time steps",
+            "These points are at equal steps of time. Where does the walked way come in?",
+            {
+                "equidistant_points": lambda P, count: interpolation.bezier_curve(
+                    P, np.linspace(0, 1, count)
+                )
+            },
+            parts=(ENDS, SPACING),
+        ),
+        Mistake(
+            "last point missing",
+            "The last row is empty: does your loop reach it?",
+            {"equidistant_points": _without_last},
+            parts=(ENDS, SPACING),
+        ),
+        Mistake(
+            "one step short",
+            "The last goal is not the whole length: how many steps lie between the points?",
+            {"equidistant_points": _along(lambda count: np.arange(count) / count)},
+            parts=(ENDS, SPACING),
+        ),
+        Mistake(
+            "first point missing",
+            "The first goal is not 0: the start of the curve is one of the points.",
+            {"equidistant_points": _along(lambda count: np.arange(1, count + 1) / count)},
+            parts=(ENDS, SPACING),
+        ),
+        Mistake(
+            "walked way without the 0",
+            "What has been walked at the very first point? Is that in your table?",
+            {"equidistant_points": _without_zero},
+            _start_is_off,
+            (ENDS,),
+        ),
+        Mistake(
+            "nearest sample",
+            "Nearly right: a goal lies between two samples, so mix these two.",
+            {"equidistant_points": _sample_behind},
+            _by_a_sample,
+            (SPACING,),
+        ),
+    ),
+    canim_functions=(
+        interpolation.arc_length,
+        interpolation.equidistant_points,
+        interpolation.equidistant_parameters,
+    ),
+)
