@@ -217,7 +217,10 @@ def plain(text: str) -> str:
     text = re.sub(r"\$([^$]+)\$", lambda m: m[1].replace("\\,", " "), markdown(text))
     if "\\" in text:
         raise ValueError(f"a question must be readable without formulas: {text!r}")
-    return re.sub(r"[`*]", "", text)
+    # Stars are emphasis, but a product or a power within code.
+    return "".join(
+        span if i % 2 else span.replace("*", "") for i, span in enumerate(text.split("`"))
+    )
 
 
 def _guard(of: Release, leave: str) -> str:

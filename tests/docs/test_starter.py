@@ -67,7 +67,7 @@ ax.plot(x)
 # --------------
 # 1. Is :math:`x = 1` **right**
 #    or wrong?
-# 2. Why ``f``?
+# 2. Why ``2 * x**2``?
 #
 # Read more
 # ---------
@@ -99,6 +99,7 @@ def test_a_starter_has_the_students_parts_and_nothing_else(page):
         assert absent not in text
     assert text.endswith('answers = {1: "", 2: ""}\n\nplt.show()\n')
     assert "# 1. Is x = 1 right or wrong?" in text
+    assert "# 2. Why 2 * x**2?" in text
 
 
 def test_the_header_names_the_page_once_the_site_has_an_address(page):
