@@ -63,7 +63,10 @@ def label_curves(ax: Axes) -> None:
         box = text.get_window_extent()
         half = np.array([box.width, box.height]) / 2
         others = [drawn[other] for other in ax.lines if other is not line] + names
-        best = _farthest(points, half, inside, others, pixel)
+        beside = _BESIDE * pixel
+        if line.get_marker() != "None":
+            beside += line.get_markersize() / 2 * figure.dpi / 72
+        best = _farthest(points, half, inside, others, beside, _FAR * pixel)
         text.set(position=ax.transData.inverted().transform(best), ha="center", va="center")
         names.append(_corners_and_middles(Bbox([best - half, best + half])))
     _put_into_a_corner(ax, missing, [*drawn.values(), *names])
@@ -109,22 +112,22 @@ def _corners_and_middles(box: Bbox) -> Floats:
 
 
 def _farthest(
-    points: Floats, half: Floats, inside: Bbox, others: list[Floats], pixel: float
+    points: Floats, half: Floats, inside: Bbox, others: list[Floats], beside: float, far: float
 ) -> Floats:
     """Return the centre, beside the curve, whose box keeps farthest from all else."""
     directions: list[Any] = [d for d in product((0, 1, -1), repeat=2) if any(d)]
-    sides = np.array(directions) * (half + _BESIDE * pixel)
+    sides = np.array(directions) * (half + beside)
     centres = (points[:: max(1, len(points) // 50), None] + sides).reshape(-1, 2)
     fits = np.all((centres - half > inside.min) & (centres + half < inside.max), axis=1)
     centres = centres[fits] if fits.any() else centres
-    score = np.full(len(centres), _FAR * pixel)
+    score = np.full(len(centres), far)
     for other in others:
         score = np.minimum(score, _gaps(centres, half, other[::2]))
     # On its own curve a name is hard to read; away from it, it seems to belong to another.
-    score += np.minimum(_gaps(centres, half, points), _BESIDE * pixel)
+    score += np.minimum(_gaps(centres, half, points), beside)
     # Among places that are as good, one in the middle is found first.
     middle, size = np.add(inside.min, inside.max) / 2, np.subtract(inside.max, inside.min)
-    score -= pixel * np.abs((centres - middle) / size).max(axis=1)
+    score -= np.abs((centres - middle) / size).max(axis=1)
     best: Floats = centres[np.argmax(score)]
     return best
 

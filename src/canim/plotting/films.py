@@ -101,7 +101,8 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
     dots, names = [], []
     for k, (name, path) in enumerate(zip(paths, points)):
         color = f"C{k}"
-        dots += ax.plot(*path[:1].T, "o", color=color, markersize=12)
+        # Dots lie above the names, so that no name hides another dot.
+        dots += ax.plot(*path[:1].T, "o", color=color, markersize=12, zorder=5)
         # Names take turns above and below, so that they are read where the points meet.
         names.append(
             ax.annotate(
