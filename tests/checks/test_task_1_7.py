@@ -66,7 +66,7 @@ def test_a_single_wrong_weight_is_named():
 
 
 def test_a_curve_that_runs_backwards_differs_though_it_looks_the_same():
-    text = " ".join(str(report(lambda P, t: by_coordinates(P, t[::-1]))).split())
+    text = " ".join(str(report(lambda P, t: by_coordinates(P, 1 - t))).split())
     assert "Your curve runs backwards" in text
 
 
