@@ -1,7 +1,8 @@
 """Time pairs of functions fairly and print the result as a Markdown table.
 
 Ours and the peers take turns, round by round, so that a busy spell of the machine
-falls on all of them; each is judged by its fastest round.
+falls on all of them; each is judged by its middle round. The fastest would flatter
+functions that ask for much memory: only now and then do they find it ready.
 """
 
 from __future__ import annotations
@@ -33,8 +34,8 @@ class Row:
         return self.goal is None or self.ratio >= self.goal
 
 
-def fastest(calls: Mapping[str, Call], repeats: int = 7, least: float = 0.02) -> dict[str, float]:
-    """Return the seconds of one call of each function, the fastest of `repeats` rounds.
+def typical(calls: Mapping[str, Call], repeats: int = 9, least: float = 0.02) -> dict[str, float]:
+    """Return the seconds of one call of each function, the median of `repeats` rounds.
 
     A round calls a function as often as it takes to fill `least` seconds.
     """
@@ -51,10 +52,7 @@ def fastest(calls: Mapping[str, Call], repeats: int = 7, least: float = 0.02) ->
             for _ in range(loops[name]):
                 call()
             rounds[name].append((time.perf_counter() - begin) / loops[name])
-    for name, seconds in rounds.items():
-        if median(seconds) > 2 * min(seconds):
-            print(f"(unsteady: {name}, median {median(seconds) / min(seconds):.1f}× the fastest)")
-    return {name: min(seconds) for name, seconds in rounds.items()}
+    return {name: median(seconds) for name, seconds in rounds.items()}
 
 
 def compare(
@@ -62,10 +60,10 @@ def compare(
     ours: Call,
     peers: Mapping[str, Call],
     goal: float | None = None,
-    repeats: int = 7,
+    repeats: int = 9,
 ) -> Row:
     """Time `ours` against the fastest of `peers`; `goal` is the ratio to reach."""
-    seconds = fastest({"canim": ours, **peers}, repeats)
+    seconds = typical({"canim": ours, **peers}, repeats)
     mine = seconds.pop("canim")
     best = min(seconds, key=seconds.__getitem__)
     return Row(name, mine, seconds[best], best, goal)

@@ -2,19 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import pairwise
-
 import numpy as np
-from numpy.typing import NDArray
 
 from canim._arguments import Floats, finite
 
 # So many points are evaluated at a time that they stay in the cache.
-_BLOCK = 2**14
-
-# From so many points a piece, a block for each piece is quicker than a table look-up.
-_LONG_PIECE = 2000
+_BLOCK = 2**15
 
 
 def evaluate(t: Floats, knots: Floats, coefficients: Floats) -> Floats:
@@ -27,35 +20,29 @@ def evaluate(t: Floats, knots: Floats, coefficients: Floats) -> Floats:
     widths = finite(np.diff(knots), "knots")
     order = len(coefficients)
     columns = coefficients.reshape(order, widths.size, -1).T.swapaxes(1, 2)
-    table = np.concatenate([knots[np.newaxis, :-1], widths[np.newaxis], *columns])
+    pieces = np.concatenate([knots[np.newaxis, :-1], widths[np.newaxis], *columns])
     result = np.empty((len(columns), flat.size))
-    for piece, span in _spans(flat, knots[1:-1]):
-        knot, width, *rest = table.take(piece, axis=1)
-        w = flat[span] - knot
-        w /= width
+    for start in range(0, flat.size, _BLOCK):
+        part = flat[start : start + _BLOCK]
+        knot, width, *rest = _of_each(part, knots[1:-1], pieces)
+        w = (part - knot) / width
         for row in result:
-            leading, *middle, constant = rest[:order]
+            value, *lower = rest[:order]
             del rest[:order]
-            value = leading * w
-            for coefficient in middle:
-                value += coefficient
+            for coefficient in lower:
                 value *= w
-            np.add(value, constant, out=row[span])
+                value += coefficient
+            row[start : start + _BLOCK] = value
     return result.T.reshape(t.shape + coefficients.shape[2:])
 
 
-def _spans(t: Floats, inner: Floats) -> Iterator[tuple[int | NDArray[np.intp], slice]]:
-    """Yield blocks of `t` with the number of their piece, or of the piece of each point."""
-    if (t[1:] >= t[:-1]).all():
-        edges = np.array([0, *np.searchsorted(t, inner), t.size])
-        if t.size >= _LONG_PIECE * (inner.size + 1):
-            for piece, (first, last) in enumerate(pairwise(edges.tolist())):
-                for start in range(first, last, _BLOCK):
-                    yield piece, slice(start, min(start + _BLOCK, last))
-            return
-        pieces = np.repeat(np.arange(inner.size + 1, dtype=np.int32), np.diff(edges))
-    else:
-        pieces = np.searchsorted(inner, t, side="right")
-    for start in range(0, t.size, _BLOCK):
-        span = slice(start, start + _BLOCK)
-        yield pieces[span], span
+def _of_each(t: Floats, inner: Floats, pieces: Floats) -> Floats:
+    """Return the columns of `pieces` for each `t`, or the one column that is for all."""
+    if not (t[1:] >= t[:-1]).all():
+        return pieces.take(np.searchsorted(inner, t, side="right"), axis=1)
+    first, last = np.searchsorted(inner, t[[0, -1]], side="right")
+    if first == last:
+        return pieces[:, first]
+    edges = np.searchsorted(t, inner[first:last])
+    counts = np.diff(edges, prepend=0, append=t.size)
+    return np.repeat(pieces[:, first : last + 1], counts, axis=1)

@@ -70,11 +70,11 @@ def lagrange_basis(nodes: ArrayLike, x: ArrayLike) -> Floats:
         product = np.multiply.reduce(ratios, axis=0)
         ratios *= weights[:, np.newaxis]
         ratios /= product
-        at_node, node = _at_nodes(part, product, z, size)
+        at_node, node = _at_nodes(part, product, z)
         ratios[:, at_node] = 0
         ratios[node, at_node] = 1
         basis[order, start : start + step] = ratios
-    return finite(basis, "x").reshape(-1, *places.shape)
+    return finite(basis, "nodes, x").reshape(z.size, *places.shape)
 
 
 @np.errstate(all="ignore")
@@ -149,7 +149,7 @@ def lagrange_interpolate(nodes: ArrayLike, values: ArrayLike, x: ArrayLike) -> F
             for total, row in zip(sums, weighted):
                 total += row[first : first + _NODES] @ ratios
         sums = np.ldexp(sums / product, exponent)
-        at_node, node = _at_nodes(part, product, z, size)
+        at_node, node = _at_nodes(part, product, z)
         sums[:, at_node] = columns[:, node]
         result[start : start + _POINTS] = sums.T
     return finite(result, "nodes, values, x").reshape(places.shape + given.shape[1:])
@@ -182,16 +182,14 @@ def _weights(nodes: ArrayLike) -> tuple[NDArray[np.intp], Floats, float, Floats]
         ratios = size / (z[start : start + _NODES, np.newaxis] - z)
         ratios[np.arange(len(ratios)), np.arange(start, start + len(ratios))] = 1
         weights[start : start + _NODES] = np.multiply.reduce(ratios, axis=1)
-    if not (_normal(weights).all() and _normal(np.array(size))):
+    if not _normal(weights).all():
         raise ValueError(
-            "nodes: too many or too unevenly spaced, their weights do not fit a float."
+            "nodes: too many, too far apart or too uneven, their weights do not fit a float."
         )
     return order, z, size, weights
 
 
-def _at_nodes(
-    x: Floats, product: Floats, z: Floats, size: float
-) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def _at_nodes(x: Floats, product: Floats, z: Floats) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Return which `x` are nodes, or too close to tell from them, and which nodes.
 
     There the product is infinite; where it is so elsewhere the polynomial is out of reach.
@@ -200,12 +198,15 @@ def _at_nodes(
     if bad.size == 0:
         return bad, bad
     ranks = np.argsort(z)
+    gaps = np.concatenate([[np.inf], np.diff(z[ranks]), [np.inf]])
     right = np.clip(np.searchsorted(z, x[bad], sorter=ranks), 1, z.size - 1)
-    left, right = ranks[right - 1], ranks[right]
-    node = np.where(np.abs(x[bad] - z[left]) < np.abs(x[bad] - z[right]), left, right)
-    if (np.abs(x[bad] - z[node]) > 1e-100 * size).any():
+    before, after = np.abs(x[bad] - z[ranks[right - 1]]), np.abs(x[bad] - z[ranks[right]])
+    nearest = np.where(before < after, right - 1, right)
+    # Nearer than this to the node, measured by its neighbours, there is nothing to tell.
+    limit = 1e-100 * np.minimum(gaps[nearest], gaps[nearest + 1])
+    if not (np.minimum(before, after) <= limit).all():
         raise ValueError("nodes, x: too large, the result does not fit a float.")
-    return bad, node
+    return bad, ranks[nearest]
 
 
 def _normal(numbers: Floats) -> NDArray[np.bool_]:

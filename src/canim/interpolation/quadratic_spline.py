@@ -133,17 +133,19 @@ def quadratic_spline(x: ArrayLike, y: ArrayLike, start: Start = "straight") -> Q
     array([10.  ,  3.25, 12.25])
     """
     knots, values, slope = _checked(x, y, start)
-    lines = np.diff(values) / np.diff(knots)
+    widths = finite(knots[1:] - knots[:-1], "x")
+    lines = (values[1:] - values[:-1]) / widths
     first = lines[0] if slope is None else slope
     # With every other sign turned the recurrence is a running sum, rounding included.
     slopes = np.concatenate([[first], -2 * lines])
     slopes[2::2] *= -1
     np.cumsum(slopes, out=slopes)
     slopes[1::2] *= -1
-    a = (lines - slopes[:-1]) / np.diff(knots)
-    b = slopes[:-1] - 2 * a * knots[:-1]
-    c = values[:-1] - (slopes[:-1] - a * knots[:-1]) * knots[:-1]
-    coefficients = finite(np.stack([a, b, c], axis=1), "x, y, start")
+    a = (lines - slopes[:-1]) / widths
+    part = a * knots[:-1]
+    b = slopes[:-1] - 2 * part
+    c = values[:-1] - (slopes[:-1] - part) * knots[:-1]
+    coefficients = finite(np.array([a, b, c]), "x, y, start").T
     return QuadraticSpline(knots.copy(), values.copy(), finite(slopes, "x, y, start"), coefficients)
 
 
