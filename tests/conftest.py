@@ -9,11 +9,15 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import hypothesis
 import pytest
 
 ROOT = Path(__file__).parents[1]
 sys.path.insert(0, str(ROOT / "docs/_ext"))
 os.environ["MPLBACKEND"] = "agg"
+# A busy machine makes any single example slow.
+hypothesis.settings.register_profile("canim", deadline=None)
+hypothesis.settings.load_profile("canim")
 
 
 @pytest.fixture(scope="session")
