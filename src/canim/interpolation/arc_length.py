@@ -221,7 +221,7 @@ def _scaled_hodograph(corners: Floats) -> tuple[Floats, float]:
 
 def _tolerance(length: float) -> float:
     """Return the error allowed in a cell; the second part is what rounding leaves."""
-    return _TOLERANCE * length + 1e-14
+    return _TOLERANCE * length + 1e-16
 
 
 @cache
