@@ -167,7 +167,9 @@ def browser(session):
     """Test the built site in a real browser (Chromium)."""
     install(session, "docs", "browser")
     install_node_packages(session)
-    session.run("pytest", "tests/site", "--site", str(SITE), *session.posargs)
+    # Without tests/conftest.py, which serves the other tests and needs what they need.
+    options = ["--confcutdir=tests/site", "--site", str(SITE)]
+    session.run("pytest", "tests/site", *options, *session.posargs)
 
 
 @nox.session(default=False)

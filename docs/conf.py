@@ -29,6 +29,7 @@ extensions = [
     "task_cards",
     "downloads",
     "page_head",
+    "styles",
 ]
 
 exclude_patterns = ["_build", "node_modules", "gallery/**/*.ipynb", "gallery/**/images"]

@@ -95,22 +95,13 @@ def _copy_style(app):
     """Put KaTeX's style sheet, and its fonts in the one format needed, among static files."""
     target = Path(app.doctreedir, "static")
     app.config.html_static_path.append(str(target))
-    fonts = target / "katex/fonts"
+    fonts = target / "fonts"
     fonts.mkdir(parents=True, exist_ok=True)
     for font in sorted((KATEX / "fonts").glob("*.woff2")):
         shutil.copyfile(font, fonts / font.name)
     style = (KATEX / "katex.min.css").read_text(encoding="utf-8")
     style = re.sub(r',url\([^)]*\.(?:woff|ttf)\) format\("\w+"\)', "", style)
-    (target / "katex/katex.css").write_text(style, encoding="utf-8")
-
-
-def _link_style(app, pagename, templatename, context, doctree):
-    if doctree is not None and any(doctree.findall(_is_math)):
-        app.add_css_file("katex/katex.css", priority=300)
-
-
-def _is_math(node):
-    return isinstance(node, nodes.math | nodes.math_block)
+    (target / "katex.css").write_text(style, encoding="utf-8")
 
 
 def setup(app):
@@ -118,5 +109,5 @@ def setup(app):
         "katex", inline_renderers=(visit_math, None), block_renderers=(visit_math_block, None)
     )
     app.connect("builder-inited", _copy_style)
-    app.connect("html-page-context", _link_style)
+    app.add_css_file("katex.css", priority=300)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

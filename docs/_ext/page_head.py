@@ -15,13 +15,6 @@ GENERATED = {
     "genindex": "All functions and classes of canim, from A to Z.",
     "search": "Search the pages of the canim course.",
 }
-# What extensions link on every page, and the classes that need it.
-ONLY_WITH = {
-    "sphinx-design.min.css": "sd-",
-    "design-tabs.js": "sd-tab",
-    "mystnb.": "cell",
-    "sg-tags.js": "sphx-glr-tag",
-}
 LANDMARKS = {
     '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="Site navigation">',
     '<aside class="toc-drawer': '<aside aria-label="On this page" class="toc-drawer',
@@ -42,17 +35,6 @@ def _describe(app, pagename, templatename, context, doctree):
         f'<meta {"property" if ":" in name else "name"}="{name}" content="{escape(value)}">\n'
         for name, value in tags.items()
     )
-
-
-def _link_what_is_used(app, pagename, templatename, context, doctree):
-    body = context.get("body", "")
-    unused = [name for name, start in ONLY_WITH.items() if f'class="{start}' not in body]
-    for kind in ("css_files", "script_files"):
-        context[kind] = [
-            file
-            for file in context[kind]
-            if not any(f"/{name}" in f"/{file.filename or ''}" for name in unused)
-        ]
 
 
 def _first_sentences(doctree):
@@ -100,6 +82,5 @@ def setup(app):
     app.connect("config-inited", _set_address)
     app.connect("builder-inited", _label)
     app.connect("html-page-context", _describe)
-    app.connect("html-page-context", _link_what_is_used, priority=900)
     app.connect("build-finished", _map)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -98,7 +98,7 @@ def _save_small(source, target, width=None):
         image = image.convert("RGB")
     if width:
         image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
-    small = image.quantize(256, dither=Image.Dither.NONE)
+    small = image.quantize(256, Image.Quantize.MAXCOVERAGE)
     error = ImageChops.difference(image, small.convert("RGB")).convert("L")
     if sum(error.histogram()[12:]) < 0.001 * image.width * image.height:
         image = small

@@ -79,7 +79,12 @@ def _fold_code(page):
                 return
             for code in part.findall(nodes.literal_block):
                 if code["language"].lower() == "python":
-                    _put_behind("How this picture is drawn", code)
+                    _put_behind(_how_drawn(code), code)
+
+
+def _how_drawn(code):
+    shown = [type(node).__name__ for node in code.parent[code.parent.index(code) + 1 :]]
+    return f"How this {'film' if shown[:1] == ['film'] else 'picture'} is drawn"
 
 
 def _put_behind(summary, code):

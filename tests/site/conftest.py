@@ -1,6 +1,8 @@
 """A server for the built site, and a browser that reads it: pytest tests/site --site DIR."""
 
+import os
 import shutil
+import sys
 import threading
 from functools import cached_property, partial
 from html.parser import HTMLParser
@@ -10,6 +12,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
+sys.path.insert(0, str(ROOT / "docs/_ext"))
+os.environ["MPLBACKEND"] = "agg"
 MOUNT = "/some/folder"  # of the server: a site at its root would hide wrong addresses
 
 
