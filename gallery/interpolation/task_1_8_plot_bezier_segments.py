@@ -79,8 +79,9 @@ canim.plotting.label_curves(ax)
 # the two derivatives are equal. A joint with both is called :math:`C^1`.
 #
 # So the **next handle** :math:`\mathbf{Q}_1` is not free. You find it when you set the two
-# derivatives equal and solve for :math:`\mathbf{Q}_1`. In the picture it is the mirror
-# image of :math:`\mathbf{P}_2`, and the mirror stands at the joint.
+# derivatives equal and solve for :math:`\mathbf{Q}_1`. Look at the handles in the picture
+# above to see what comes out: :math:`\mathbf{Q}_1` is the mirror image of
+# :math:`\mathbf{P}_2`, and the mirror stands at the joint.
 #
 # In a **closed shape** the last curve ends where the first one starts. There is a joint
 # there as well! The first curve is already drawn, so now the last handle is the one that
@@ -121,7 +122,8 @@ near.axline(kinked[2, 2], kinked[2, 3], color="red", linestyle=":", linewidth=1.
 #    x' &= s\,(x \cos\varphi - y \sin\varphi) + d_x \\
 #    y' &= s\,(x \sin\varphi + y \cos\varphi) + d_y
 #
-# Scaling and turning are about the point :math:`(0, 0)`. More in
+# Scaling and turning are about the point :math:`(0, 0)`. The three together keep the form
+# and change the size: a **similarity**. Without the scale it is a rigid motion. More in
 # :cite:t:`ShirleyMarschner2009`, chapters 6 and 15, and :cite:t:`Farin2002`.
 
 # %%

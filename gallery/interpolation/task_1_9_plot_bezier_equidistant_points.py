@@ -89,7 +89,8 @@ ax.plot(*samples.T, "o-", color="C1")
 #
 #    L \approx \sum_{k=0}^{N-2} \|\mathbf{B}_{k+1} - \mathbf{B}_k\|.
 #
-# The bars :math:`\|\;\|` mean the length of an arrow. The more samples, the better.
+# The bars :math:`\|\;\|` mean the length of the arrow between them; such steps from one
+# sample to the next are called **forward differences**. The more samples, the better.
 #
 # Now the points at equal distances. Walk along the curve with a measuring wheel. At every
 # sample, write down the **walked way** so far, and where you are:
