@@ -7,9 +7,12 @@ The blocks of the course are `canim.interpolation`, `canim.warping` and `canim.c
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
 
+# To load `typing` would take longer than all the rest; type checkers know the name.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from canim import checks, interpolation, plotting
     from canim.checks import check
 
