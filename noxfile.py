@@ -192,7 +192,7 @@ def bench(session):
     install(session, "bench")
     # An old OpenBLAS may need these; a current one is only slowed down by them.
     plain = {"OPENBLAS_CORETYPE": None, "OPENBLAS_L2_SIZE": None}
-    session.run("python", "bench/interpolation.py", *session.posargs, env=plain)
+    session.run("python", "bench", *session.posargs, env=plain)
 
 
 @nox.session(default=False)
