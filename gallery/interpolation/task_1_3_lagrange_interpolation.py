@@ -129,8 +129,10 @@ canim.plotting.label_curves(ax)
 # Your task
 # ---------
 # Write the basis, then :math:`L`. Both must work for any number of nodes: count them with
-# ``len(nodes)``. The factor is given. What is not written yet is ``nan`` ("not a number"),
-# which draws nothing.
+# ``len(nodes)``. The factor is given.
+#
+# What is not written yet is ``nan`` ("not a number"), which draws nothing. Whatever you
+# multiply or add to ``nan`` stays ``nan``. So begin each product with 1, and the sum with 0.
 
 
 def factor(nodes, x, j, m):
@@ -142,7 +144,7 @@ def lagrange_basis(nodes, x):
     """Return one row per node: row j is the curve ℓj at every x."""
     n = len(nodes)
     basis = np.full((n, len(x)), np.nan)
-    # TODO: basis[j] for every node j
+    # TODO: for every node j: basis[j] begins with 1, then multiply
     return basis
 
 
@@ -150,7 +152,7 @@ def lagrange_interpolate(nodes, values, x):
     """Return L, the curve through all points, at every x."""
     basis = lagrange_basis(nodes, x)
     L = np.full(len(x), np.nan)
-    # TODO: L
+    # TODO: L begins with 0, then add
     return L
 
 
