@@ -1,8 +1,9 @@
 """Time pairs of functions fairly and print the result as a Markdown table.
 
-Ours and the peers take turns, round by round, so that a busy spell of the machine
-falls on all of them; each is judged by its middle round. The fastest would flatter
-functions that ask for much memory: only now and then do they find it ready.
+Time is that of the processor, so waiting for another program does not count, and a second
+thread gains nothing. Ours and the peers take turns, round by round, so that a busy spell of
+the machine falls on all of them; each is judged by its middle round. The fastest would
+flatter functions that ask for much memory: only now and then do they find it ready.
 """
 
 from __future__ import annotations
@@ -35,23 +36,23 @@ class Row:
 
 
 def typical(calls: Mapping[str, Call], repeats: int = 9, least: float = 0.02) -> dict[str, float]:
-    """Return the seconds of one call of each function, the median of `repeats` rounds.
+    """Return the processor seconds of one call of each function, the median of `repeats` rounds.
 
     A round calls a function as often as it takes to fill `least` seconds.
     """
     loops = {}
     for name, call in calls.items():
         call()  # The first call pays for imports and caches.
-        begin = time.perf_counter()
+        begin = time.process_time()
         call()
-        loops[name] = max(1, round(least / max(time.perf_counter() - begin, 1e-7)))
+        loops[name] = max(1, round(least / max(time.process_time() - begin, 1e-7)))
     rounds: dict[str, list[float]] = {name: [] for name in calls}
     for _ in range(repeats):
         for name, call in calls.items():
-            begin = time.perf_counter()
+            begin = time.process_time()
             for _ in range(loops[name]):
                 call()
-            rounds[name].append((time.perf_counter() - begin) / loops[name])
+            rounds[name].append((time.process_time() - begin) / loops[name])
     return {name: median(seconds) for name, seconds in rounds.items()}
 
 
