@@ -25,7 +25,8 @@ def evaluate(t: Floats, knots: Floats, coefficients: Floats) -> Floats:
     for start in range(0, flat.size, _BLOCK):
         part = flat[start : start + _BLOCK]
         knot, width, *rest = _of_each(part, knots[1:-1], pieces)
-        w = (part - knot) / width
+        w = part - knot
+        w /= width
         for row in result:
             value, *lower = rest[:order]
             del rest[:order]
