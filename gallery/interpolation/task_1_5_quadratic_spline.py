@@ -145,19 +145,20 @@ canim.plotting.label_curves(ax)
 #        A: all zeros,  b: no numbers yet
 #        for every piece i:
 #            piece i begins at point i:
-#                columns of piece i:    x_i^2, x_i, 1
-#                right side:            y_i
+#                its columns: x_i^2, x_i, 1
+#                right side:  y_i
 #            piece i ends at point i + 1:
-#                the same with x_(i+1), y_(i+1)
-#        for every inner knot, with piece i on its left:
+#                the same with point i + 1
+#        for every inner knot x_(i+1):
 #            equal slopes:
-#                columns of piece i:      2 x_(i+1), 1
-#                columns of piece i + 1:  the same,
-#                                         minus signs
-#                right side:              0
+#                columns of piece i:
+#                    2 x_(i+1), 1, 0
+#                columns of piece i + 1:
+#                    the same, minus signs
+#                right side: 0
 #        start, one row:
-#            straight:  a_0 = 0
-#            flat:      slope of piece 0 at x_0 = 0
+#            straight: a_0 = 0
+#            flat:     slope at x_0 = 0
 #        return A, b
 
 # %%
