@@ -269,8 +269,8 @@ def test_data_is_the_students_own_and_has_its_own_words():
     scaled = task(
         data=(Data("other", float), Data("scale", _positive)),
         parts=(
-            Part("scaled", lambda p: p.scale * p.f(T)[0], expected=lambda: 6 * T),
-            Part("flat", lambda p: p.scale * p.f(T), expected=lambda: 6 * T),
+            Part("scaled", lambda p: p.scale * p.f(T)[0], expected=lambda p: 6 * T),
+            Part("flat", lambda p: p.scale * p.f(T), expected=lambda p: 6 * T),
         ),
     )
     assert states(checks.run(scaled, {"f": double, "scale": 3, "other": 1})) == ["done", "differs"]
@@ -318,7 +318,7 @@ def test_a_part_can_describe_its_difference_and_say_when_it_is_unwritten():
 def test_what_is_right_may_follow_from_the_students_own_data():
     own = task(
         data=(Data("scale", _positive),),
-        parts=(Part("scaled", lambda p: p.f(T)[0], target=lambda p: p.scale * T),),
+        parts=(Part("scaled", lambda p: p.f(T)[0], expected=lambda p: p.scale * T),),
     )
     assert checks.run(own, {"f": double, "scale": 2}).done
     assert states(checks.run(own, {"f": double, "scale": 3})) == ["differs"]
@@ -348,6 +348,12 @@ def test_check_ends_the_program_after_a_crash(capsys):
         canim.check("1.1", hermite_basis=lambda t: t / "a")
     assert ended.value.code == 1
     assert "stops in line" in capsys.readouterr().out
+
+
+def test_check_ends_the_program_where_a_result_cannot_be_drawn(capsys):
+    with pytest.raises(SystemExit):
+        canim.check("1.1", hermite_basis=lambda t: None)
+    assert "returns nothing (None)" in capsys.readouterr().out
 
 
 def test_check_names_unknown_tasks_and_functions():

@@ -52,7 +52,7 @@ def find(task: str) -> Task:
 def check(task: str, *, hint: bool = False, **functions: Any) -> None:
     """Show what is right, what is missing and what to look at in a student's program.
 
-    Where one of the functions crashes, the program ends after the report.
+    Where a function crashes, or returns what cannot be drawn, the program ends here.
 
     Parameters
     ----------
@@ -91,5 +91,5 @@ def check(task: str, *, hint: bool = False, **functions: Any) -> None:
             )
     report = run(found, functions, hint=hint)
     show(report)
-    if report.crashed:
+    if report.broken:
         raise _End if _report.in_notebook() else SystemExit(1)

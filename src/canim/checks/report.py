@@ -57,9 +57,9 @@ class Report:
         return self.stopped is None and all(r.state == "done" for r in self.results)
 
     @property
-    def crashed(self) -> bool:
-        """Whether one of the functions stopped with an error."""
-        return any(r.state == "crashed" for r in self.results)
+    def broken(self) -> bool:
+        """Whether what follows in the program would stop for what is told already."""
+        return any(r.state in ("crashed", "unusable") for r in self.results)
 
     @property
     def summary(self) -> str:
@@ -138,7 +138,7 @@ def _lines(text: str) -> str:
 def _wrapped(text: str, head: str) -> list[str]:
     """Return `text` in lines, the first behind `head`, the others below its start."""
     indent = " " * len(head)
-    lines = []
+    lines: list[str] = []
     for line in text.split("\n"):
         lines += textwrap.wrap(
             line,

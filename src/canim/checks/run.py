@@ -63,9 +63,7 @@ def _compare(
         except Stopped as stopped:
             raise _of_case(stopped, case.label) from None
         if part.expected:
-            expected = part.expected(*case.args)
-        elif part.target:
-            expected = part.target(program, *case.args)
+            expected = part.expected(program, *case.args)
         else:
             expected = part.measure(reference, *case.args)
         yield case.args, case.label, got, np.asarray(expected, dtype=float)

@@ -113,9 +113,9 @@ class Part:
 
     `measure(program, *case.args)` is what this part compares: `program` gives the
     student's functions and data, then the reference's, by attribute. `place(index, *args)`
-    says where the entry `index` of the measured array is ("at t = 0.5"). `expected`
-    replaces the reference's measure where there is no single right answer;
-    `target(program, *args)` does where what is right follows from the student's own data.
+    says where the entry `index` of the measured array is ("at t = 0.5").
+    `expected(program, *args)` replaces the reference's measure where there is no single
+    right answer, or what is right follows from the student's own data.
     """
 
     name: str
@@ -126,7 +126,6 @@ class Part:
     unwritten: Callable[[Floats], bool] = _all_nan
     tolerance: float = 1e-6
     describe: Callable[..., str] | None = None
-    target: Callable[..., Any] | None = None
 
 
 @dataclass(frozen=True)

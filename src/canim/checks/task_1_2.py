@@ -34,7 +34,7 @@ def _row(k: int) -> Part:
         f"M, row for {'abcd'[k]}",
         lambda program: program.M[k],
         place=lambda index: f"number for {WISHES[index[0]]}",
-        expected=lambda: M[k],
+        expected=lambda program: M[k],
     )
 
 

@@ -203,7 +203,7 @@ TASK = Task(
                 _joint,
                 (Case((joint,)),),
                 _point_of_joint,
-                target=_smooth_joint,
+                expected=_smooth_joint,
                 # Points may be written with a few decimals.
                 tolerance=1e-3,
             )
