@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
+
 import numpy as np
 
 from canim._arguments import Floats, finite
 
 # So many points are evaluated at a time that they stay in the cache.
 _BLOCK = 2**15
+
+# A block of at most so many pieces is quicker done piece by piece.
+_FEW = 10
 
 
 def evaluate(t: Floats, knots: Floats, coefficients: Floats) -> Floats:
@@ -22,28 +28,32 @@ def evaluate(t: Floats, knots: Floats, coefficients: Floats) -> Floats:
     columns = coefficients.reshape(order, widths.size, -1).T.swapaxes(1, 2)
     pieces = np.concatenate([knots[np.newaxis, :-1], widths[np.newaxis], *columns])
     result = np.empty((len(columns), flat.size))
-    for start in range(0, flat.size, _BLOCK):
-        part = flat[start : start + _BLOCK]
-        knot, width, *rest = _of_each(part, knots[1:-1], pieces)
-        w = part - knot
+    for span, (knot, width, *rest) in _spans(flat, knots[1:-1], pieces):
+        w = flat[span] - knot
         w /= width
         for row in result:
-            value, *lower = rest[:order]
+            leading, *middle, constant = rest[:order]
             del rest[:order]
-            for coefficient in lower:
-                value *= w
+            value = leading * w
+            for coefficient in middle:
                 value += coefficient
-            row[start : start + _BLOCK] = value
+                value *= w
+            np.add(value, constant, out=row[span])
     return result.T.reshape(t.shape + coefficients.shape[2:])
 
 
-def _of_each(t: Floats, inner: Floats, pieces: Floats) -> Floats:
-    """Return the columns of `pieces` for each `t`, or the one column that is for all."""
-    if not (t[1:] >= t[:-1]).all():
-        return pieces.take(np.searchsorted(inner, t, side="right"), axis=1)
-    first, last = np.searchsorted(inner, t[[0, -1]], side="right")
-    if first == last:
-        return pieces[:, first]
-    edges = np.searchsorted(t, inner[first:last])
-    counts = np.diff(edges, prepend=0, append=t.size)
-    return np.repeat(pieces[:, first : last + 1], counts, axis=1)
+def _spans(t: Floats, inner: Floats, pieces: Floats) -> Iterator[tuple[slice, Floats]]:
+    """Yield spans of `t`, each with its column of `pieces`, or with a column for every point."""
+    for start in range(0, t.size, _BLOCK):
+        part = t[start : start + _BLOCK]
+        span = slice(start, start + part.size)
+        if not (part[1:] >= part[:-1]).all():
+            yield span, pieces.take(np.searchsorted(inner, part, side="right"), axis=1)
+            continue
+        first, last = np.searchsorted(inner, part[[0, -1]], side="right")
+        edges = np.array([0, *np.searchsorted(part, inner[first:last]), part.size])
+        if last - first < _FEW:
+            for piece, (begin, end) in enumerate(pairwise((edges + start).tolist()), first):
+                yield slice(begin, end), pieces[:, piece]
+        else:
+            yield span, np.repeat(pieces[:, first : last + 1], np.diff(edges), axis=1)
