@@ -9,10 +9,11 @@ from html import escape
 from pathlib import Path
 
 import starter
-from canim.checks import TASKS
 from docutils import nodes
 from sphinx.errors import ConfigError
 from sphinx.util.docutils import SphinxDirective
+
+from canim.checks import TASKS
 
 ROOT = Path(__file__).parents[2]
 RELEASE = starter.release(ROOT)

@@ -13,6 +13,7 @@ import textwrap
 from collections import deque
 from html import escape
 from pathlib import Path
+from typing import ClassVar
 
 import imageio_ffmpeg
 from docutils import nodes
@@ -32,8 +33,9 @@ _reports = []
 
 def reset(gallery_conf, fname):
     """Give each script the same start: ffmpeg, and reports that are collected."""
-    import canim.checks
     import matplotlib
+
+    import canim.checks
 
     matplotlib.rcParams["animation.ffmpeg_path"] = imageio_ffmpeg.get_ffmpeg_exe()
     _reports.clear()
@@ -99,10 +101,20 @@ def _save_small(source, target, width=None):
     if width:
         image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
     small = image.quantize(256, Image.Quantize.MAXCOVERAGE)
+    _keep_ground(image, small)
     error = ImageChops.difference(image, small.convert("RGB")).convert("L")
     if sum(error.histogram()[12:]) < 0.001 * image.width * image.height:
         image = small
     image.save(target, optimize=True)
+
+
+def _keep_ground(image, small):
+    """Give the commonest colour, a figure's ground, back to the palette as it was."""
+    _, ground = max(image.getcolors(image.width * image.height))
+    _, index = max(small.getcolors())
+    palette = small.getpalette()
+    palette[3 * index : 3 * index + 3] = ground
+    small.putpalette(palette)
 
 
 def _save_film(animation, poster):
@@ -128,11 +140,11 @@ def _save_film(animation, poster):
     animation.save(poster.with_suffix(".mp4"), writer=writer, dpi=1.5 * CSS_DPI)
 
 
-class picture(nodes.image):  # noqa: N801 (docutils names nodes in lower case)
+class picture(nodes.image):
     """A picture with its size, so that the page does not jump while it loads."""
 
 
-class film(nodes.image):  # noqa: N801
+class film(nodes.image):
     """A film; its only child is the picture shown before it plays."""
 
 
@@ -141,7 +153,7 @@ class Picture(SphinxDirective):
 
     optional_arguments = 1
     final_argument_whitespace = True
-    option_spec = {
+    option_spec: ClassVar = {
         "alt": directives.unchanged,
         "width": directives.nonnegative_int,
         "height": directives.nonnegative_int,
@@ -152,14 +164,15 @@ class Picture(SphinxDirective):
         kind = self.node.__name__
         alt = self.options.get("alt", "")
         if not self.arguments:
-            logger.warning("'# %s: %s' has no %s below it", kind.title(), alt, kind,
-                           location=self.get_location(), type="pictures")
+            self.warn(f"'# {kind.title()}: {alt}' has no {kind} below it")
             return []
         if not alt:
-            logger.warning("a %s without a comment '# %s: …' above it", kind, kind.title(),
-                           location=self.get_location(), type="pictures")
+            self.warn(f"a {kind} without a comment '# {kind.title()}: …' above it")
         size = {key: self.options[key] for key in ("width", "height") if key in self.options}
         return [self.make(self.arguments[0], alt, size)]
+
+    def warn(self, message):
+        logger.warning(message, location=self.get_location(), type="pictures")
 
     def make(self, uri, alt, size):
         return picture(uri=uri, alt=alt, **size)

@@ -5,17 +5,20 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-from canim.checks import BLOCKS, TASKS
 from docutils import nodes
 from pictures import picture
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective
 from task_page import builds_on, page_link
 
+from canim.checks import BLOCKS, TASKS
+
 logger = logging.getLogger(__name__)
 
 FIRST_PICTURE = re.compile(
-    r"^\.\. (?:picture|film):: (\S+)/(\S+)\.png\n +:alt: (.*)\n +:width: (\d+)\n +:height: (\d+)", re.M
+    r"^\.\. (?:picture|film):: (\S+)/(\S+)\.png\n"
+    r" +:alt: (.*)\n +:width: (\d+)\n +:height: (\d+)",
+    re.M,
 )
 THUMB_SHOWN = 240
 
@@ -28,8 +31,7 @@ class TaskCards(SphinxDirective):
     def run(self):
         block = self.arguments[0]
         if block not in BLOCKS:
-            logger.warning("no block %r, only %s", block, ", ".join(BLOCKS),
-                           location=self.get_location(), type="tasks")
+            self.warn(f"no block {block!r}, only {', '.join(BLOCKS)}")
         cards = [self.card(task) for task in TASKS.values() if task.block == block]
         if not cards:
             return [nodes.paragraph("", "The tasks of this block follow.")]
@@ -45,17 +47,20 @@ class TaskCards(SphinxDirective):
     def thumb(self, task):
         source = Path(self.env.srcdir, f"{task.page}.rst")
         if not source.exists():
-            logger.warning("task %s has no page %s", task.id, task.page,
-                           location=self.get_location(), type="tasks")
+            self.warn(f"task {task.id} has no page {task.page}")
             return []
         self.env.note_dependency(str(source))
         found = FIRST_PICTURE.search(source.read_text(encoding="utf-8"))
         if not found:
-            logger.warning("the page of task %s has no picture", task.id, type="tasks")
+            self.warn(f"the page of task {task.id} has no picture")
             return []
         folder, name, alt, width, height = found.groups()
         size = {"width": THUMB_SHOWN, "height": round(int(height) * THUMB_SHOWN / int(width))}
-        return [picture(uri=f"{folder}/thumb/{name}_thumb.png", alt=f"Expected result: {alt}", **size)]
+        thumb = f"{folder}/thumb/{name}_thumb.png"
+        return [picture(uri=thumb, alt=f"Expected result: {alt}", **size)]
+
+    def warn(self, message):
+        logger.warning(message, location=self.get_location(), type="tasks")
 
 
 def setup(app):

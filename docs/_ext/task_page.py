@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 
-from canim.checks import TASKS
 from docutils import nodes
 from sphinx import addnodes
 from sphinx.util import logging
+
+from canim.checks import TASKS
 
 logger = logging.getLogger(__name__)
 
@@ -19,7 +20,7 @@ FOR_THE_SITE = re.compile(r"^# (?:Picture|Film): .*\n(?:#.*\n)*|  # noqa.*$", re
 PAGES = {task.page: task for task in TASKS.values()}
 
 
-class fold(nodes.General, nodes.Element):  # noqa: N801 (docutils names nodes in lower case)
+class fold(nodes.General, nodes.Element):
     """Content behind a line that opens it."""
 
 

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -82,3 +83,26 @@ def test_picture_without_text_is_a_warning(warnings):
 def test_text_without_picture_is_a_warning(warnings):
     _, said = warnings("T\n=\n\n.. film::\n   :alt: a dot moves\n", "pictures")
     assert "index.rst:4: WARNING: '# Film: a dot moves' has no film below it" in said
+
+
+def test_scripts_run_again_when_canim_has_changed(tmp_path):
+    import freshness
+
+    scripts, generated = tmp_path / "gallery/block", tmp_path / "docs/gallery/block"
+    scripts.mkdir(parents=True)
+    generated.mkdir(parents=True)
+    (scripts / "task_a.py").touch()
+    config = SimpleNamespace(
+        sphinx_gallery_conf={"examples_dirs": "../gallery", "gallery_dirs": "gallery"}
+    )
+    app = SimpleNamespace(srcdir=tmp_path / "docs")
+    freshness._forget(app, config)
+    for name in ("task_a.py.md5", "task_gone.py.md5", "task_gone.rst"):
+        (generated / name).touch()
+
+    freshness._forget(app, config)  # nothing has changed but a script is gone
+    assert [path.name for path in generated.iterdir()] == ["task_a.py.md5"]
+
+    (generated.parent / "figures.sha256").write_text("of an older canim", encoding="utf-8")
+    freshness._forget(app, config)
+    assert list(generated.iterdir()) == []

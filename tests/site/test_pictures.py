@@ -106,3 +106,15 @@ def test_photograph_keeps_its_colours(tmp_path):
     pictures._save_small(tmp_path / "noise.png", tmp_path / "small.png")
     with Image.open(tmp_path / "small.png") as image:
         assert np.array_equal(np.asarray(image), noise)
+
+
+def test_ground_keeps_its_colour(tmp_path):
+    ground = (252, 252, 250)
+    image = Image.new("RGB", (80, 60), ground)
+    for x in range(40):  # more colours than a palette holds
+        for y in range(30):
+            image.putpixel((x, y), (5 * x, 8 * y, 3 * x + 3 * y))
+    image.save(tmp_path / "figure.png")
+    pictures._save_small(tmp_path / "figure.png", tmp_path / "small.png")
+    with Image.open(tmp_path / "small.png") as small:
+        assert small.convert("RGB").getpixel((79, 59)) == ground
