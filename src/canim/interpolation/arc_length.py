@@ -27,9 +27,8 @@ _COARSE, _FINE = 8, 16
 _TOLERANCE = 1e-11
 # Targets are worked on in blocks, so that many of them need little memory.
 _BLOCK_SIZE = 2**16
-# After so many steps of Newton's method, the bounds of a target are halved instead, up to
-# the last of all rounds, when they have met.
-_NEWTON_ROUNDS, _ROUNDS = 10, 64
+# A few rounds of Newton's method are enough; where rounding leaves no better result, it stops.
+_ROUNDS = 64
 
 
 def arc_length(control_points: ArrayLike, samples: int | None = None) -> float:
@@ -199,7 +198,7 @@ def equidistant_parameters(control_points: ArrayLike, count: int) -> Floats:
     nodes, weights = _gauss(_COARSE)
     sizes = widths * (_speeds(hodograph, starts[:, None] + np.outer(widths, nodes)) @ weights)
     ends = sizes.cumsum()
-    tolerance = 2 * _tolerance(ends[-1])
+    tolerance = 5 * _tolerance(ends[-1])
     block = max(_BLOCK_SIZE // len(corners), 1)
     for part in (slice(first, first + block) for first in range(0, t.size, block)):
         targets = t[part] * ends[-1]
@@ -207,6 +206,7 @@ def equidistant_parameters(control_points: ArrayLike, count: int) -> Floats:
         rest = targets - (ends - sizes)[cell]
         t[part] = _solve(hodograph, starts[cell], widths[cell], sizes[cell], rest, tolerance)
     t[0], t[-1] = 0, 1
+    # Points closer together than the tolerance must not change places.
     return np.maximum.accumulate(t)
 
 
@@ -304,9 +304,8 @@ def _solve(
         low, high = np.where(miss < 0, share, low), np.where(miss > 0, share, high)
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             newton = share - miss / (widths * speeds[:, -1])
-        # Where Newton's step leaves the bounds, or is slow as at a cusp, halve them.
-        trusted = (low < newton) & (newton < high) & (rounds < _NEWTON_ROUNDS)
-        share = np.where(trusted, newton, (low + high) / 2)
+        # Where the speed is near zero, as at a cusp, Newton's step leaves the bounds: halve them.
+        share = np.where((low < newton) & (newton < high), newton, (low + high) / 2)
         far = np.abs(miss) > tolerance
         waiting, rounds = waiting[far], rounds + 1
         starts, widths, targets, share, low, high = (
