@@ -16,11 +16,12 @@ _BLOCK = 2**15
 _FEW = 10
 
 
-def evaluate(t: Floats, knots: Floats, coefficients: Floats) -> Floats:
+def evaluate(t: Floats, knots: Floats, coefficients: Floats, names: str) -> Floats:
     """Return the piecewise polynomial at `t`; the end pieces go on outside the knots.
 
     `coefficients`, shape (order, pieces) or (order, pieces, dim), highest power first,
-    belong to powers of w, which runs from 0 to 1 along each piece.
+    belong to powers of w, which runs from 0 to 1 along each piece. `names` are the arguments
+    to name where the result does not fit a float.
     """
     flat = t.ravel()
     widths = finite(np.diff(knots), "knots")
@@ -38,7 +39,7 @@ def evaluate(t: Floats, knots: Floats, coefficients: Floats) -> Floats:
             for coefficient in middle:
                 value += coefficient
                 value *= w
-            np.add(value, constant, out=row[span])
+            finite(np.add(value, constant, out=row[span]), names)
     return result.T.reshape(t.shape + coefficients.shape[2:])
 
 

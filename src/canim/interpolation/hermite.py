@@ -250,7 +250,7 @@ def hermite_spline(t: ArrayLike, knots: ArrayLike, values: ArrayLike, slopes: Ar
     widths = np.diff(knots).reshape(-1, *[1] * (values.ndim - 1))
     ends = np.stack([values[:-1], values[1:], widths * slopes[:-1], widths * slopes[1:]])
     coefficients = np.tensordot(HERMITE_MATRIX, ends, axes=1)
-    return finite(evaluate(t, knots, coefficients), "t, knots, values, slopes")
+    return evaluate(t, knots, coefficients, "t, knots, values, slopes")
 
 
 def _ends(f0: ArrayLike, f1: ArrayLike, d0: ArrayLike, d1: ArrayLike) -> Floats:

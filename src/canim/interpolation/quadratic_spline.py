@@ -73,7 +73,7 @@ class QuadraticSpline:
         rise = np.diff(self.values)
         start = np.diff(self.knots) * self.slopes[:-1]
         pieces = np.stack([rise - start, start, self.values[:-1]])
-        return finite(evaluate(floats(x, "x"), self.knots, pieces), "x")
+        return evaluate(floats(x, "x"), self.knots, pieces, "x")
 
 
 @np.errstate(all="ignore")
