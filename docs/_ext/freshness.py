@@ -1,5 +1,6 @@
-"""Run the gallery's scripts again when canim, which draws their figures, has changed.
+"""Leave nothing behind that is out of date.
 
+The gallery's scripts run again when canim, which draws their figures, has changed:
 sphinx-gallery looks only at the scripts, and Sphinx only at the pages' sources.
 """
 
@@ -43,8 +44,19 @@ def _forget(app, config):
     seen.write_text(figures, encoding="utf-8")
 
 
+def _remove_old_pages(app, exception):
+    """Remove what an earlier build made of a page that is gone: Sphinx leaves it there."""
+    if exception or app.builder.name != "html":
+        return
+    kept = {*app.env.found_docs, "genindex", "search"}
+    for page in app.outdir.rglob("*.html"):
+        if page.relative_to(app.outdir).with_suffix("").as_posix() not in kept:
+            page.unlink()
+
+
 def setup(app):
     # Cards and formulas are made while reading and writing: a change there concerns all pages.
     app.add_config_value("page_sources", "", "env", types=str)
     app.connect("config-inited", _forget)
+    app.connect("build-finished", _remove_old_pages)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -26,18 +26,20 @@ logger = logging.getLogger(__name__)
 CSS_DPI = 100  # a figure of 6.4 inches is 640 pixels wide on the page
 SHARP = 2  # pixels of the file per pixel of the page
 THUMB_WIDTH = 480
+# One thread and no dates: the same film has the same bytes.
+FILM = (
+    "-threads 1 -fflags +bitexact -flags:v +bitexact -map_metadata -1"
+    " -crf 24 -preset slow -movflags +faststart"
+)
 COMMENT = re.compile(r"^# (Picture|Film): (.*\n(?:#(?! Picture:| Film:).*\n)*)", re.M)
 
 _reports = []
 
 
 def reset(gallery_conf, fname):
-    """Give each script the same start: ffmpeg, and reports that are collected."""
-    import matplotlib
-
+    """Before a script runs: collect its reports, do not print them."""
     import canim.checks
 
-    matplotlib.rcParams["animation.ffmpeg_path"] = imageio_ffmpeg.get_ffmpeg_exe()
     _reports.clear()
     canim.checks.show = _reports.append
 
@@ -119,24 +121,40 @@ def _keep_ground(image, small):
 
 def _save_film(animation, poster):
     """Save the animation as mp4, always with the same bytes, and its middle as a picture."""
-    from matplotlib.animation import FFMpegWriter
+    from matplotlib.animation import AbstractMovieWriter
 
-    class Writer(FFMpegWriter):
-        left = len(list(animation.new_saved_frame_seq())) // 2
+    class Writer(AbstractMovieWriter):
+        """Hands each frame on as it was drawn; matplotlib's own draws it three times."""
+
+        def setup(self, fig, outfile, dpi=None):
+            fig.dpi = dpi
+            super().setup(fig, outfile, dpi)
+            self.frames_left = len(list(animation.new_saved_frame_seq())) // 2
+            self.film = imageio_ffmpeg.write_frames(
+                str(outfile),
+                tuple(map(round, self.frame_size)),
+                pix_fmt_in="rgba",
+                fps=self.fps,
+                quality=None,
+                macro_block_size=2,
+                output_params=FILM.split(),
+            )
+            self.film.send(None)
 
         def grab_frame(self, **options):
-            if self.left == 0:
+            self.film.send(self.fig.canvas.buffer_rgba())
+            if self.frames_left == 0:
                 _save_picture(self.fig, poster)
-            self.left -= 1
-            super().grab_frame(**options)
+            self.frames_left -= 1
 
-    exact = "-threads 1 -fflags +bitexact -flags:v +bitexact -map_metadata -1"
-    options = "-pix_fmt yuv420p -crf 24 -preset slow -movflags +faststart"
-    writer = Writer(
-        fps=round(1000 / animation._interval),
-        codec="libx264",
-        extra_args=[*exact.split(), *options.split()],
-    )
+        def finish(self):
+            self.film.close()
+
+    figure = animation._fig
+    # Axes that are laid out anew for each frame would tremble.
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    writer = Writer(fps=round(1000 / animation._interval))
     animation.save(poster.with_suffix(".mp4"), writer=writer, dpi=1.5 * CSS_DPI)
 
 
