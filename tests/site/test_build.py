@@ -15,7 +15,11 @@ ROOT = Path(__file__).parents[2]
 
 def sphinx(source, target, *options):
     command = [sys.executable, "-m", "sphinx", "-q", *options, source, target]
-    environment = os.environ | {"PYTHONPATH": str(ROOT / "docs/_ext"), "PYTHONHASHSEED": "7"}
+    paths = (str(ROOT / "docs/_ext"), os.environ.get("PYTHONPATH"))
+    environment = os.environ | {
+        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+        "PYTHONHASHSEED": "7",
+    }
     return subprocess.run(
         command, capture_output=True, text=True, encoding="utf-8", env=environment, check=False
     )
