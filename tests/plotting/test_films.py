@@ -4,7 +4,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
-from canim.plotting import animate_construction, animate_points
+from canim.plotting import animate_construction, animate_morph, animate_points
 
 T = np.linspace(0, 1, 11)
 LINE = np.column_stack([T, 2 * T])
@@ -94,3 +94,20 @@ def test_the_axes_do_not_jump_while_a_name_moves_out_of_them():
     assert places[0] == pytest.approx(places[1])
     assert places[0] == pytest.approx(places[2])
     plt.close(fig)
+
+
+def test_a_morph_shows_its_images_one_after_the_other_and_moves_its_triangles(ax):
+    frames = [np.full((4, 4, 3), 50 * k, dtype=np.uint8) for k in range(3)]
+    poses = [np.array([[0, 0], [3, 0], [k, 3]]) for k in range(3)]
+    film = animate_morph(ax, frames, poses, [(0, 1, 2)], hold=2)
+    assert _play(film) == [0, 1, 2, 2, 2]
+    film._draw_frame(1)
+    assert np.array_equal(ax.images[0].get_array(), frames[1])
+    assert np.array_equal(ax.collections[0].get_segments()[0], [(0, 0), (3, 0), (1, 3), (0, 0)])
+
+
+def test_a_morph_needs_no_triangles_and_grey_stays_the_same_grey(ax):
+    film = animate_morph(ax, [np.full((4, 4), 50), np.full((4, 4), 60)], hold=0)
+    _play(film)
+    assert ax.images[0].get_clim() == (0, 255)
+    assert not ax.collections

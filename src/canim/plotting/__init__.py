@@ -1,6 +1,16 @@
 """How pages and starters draw what plain matplotlib calls cannot say in one line."""
 
 from canim.plotting.curves import label_curves
-from canim.plotting.films import animate_construction, animate_points
+from canim.plotting.films import animate_construction, animate_morph, animate_points
+from canim.plotting.images import draw_points, draw_triangulation, pick_points, progress
 
-__all__ = ["animate_construction", "animate_points", "label_curves"]
+__all__ = [
+    "animate_construction",
+    "animate_morph",
+    "animate_points",
+    "draw_points",
+    "draw_triangulation",
+    "label_curves",
+    "pick_points",
+    "progress",
+]

@@ -1,4 +1,4 @@
-"""Films for pages: points that move along curves, and how a curve is constructed."""
+"""Films for pages: points on curves, the construction of a curve, images that turn into others."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
+
+from canim.plotting.images import edges, mesh
 
 _MILLISECONDS = 40  # per frame: 25 frames in a second
 
@@ -125,6 +127,61 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
         return [*dots, *names]
 
     return _film(ax, draw, len(points[0]), hold)
+
+
+def animate_morph(
+    ax: Axes,
+    frames: Sequence[ArrayLike],
+    poses: Sequence[ArrayLike] | None = None,
+    triangles: ArrayLike | None = None,
+    hold: int = 12,
+) -> FuncAnimation:
+    """Make a film of images; triangles may move over it.
+
+    Parameters
+    ----------
+    ax : matplotlib.axes.Axes
+        Where to draw. Its frame and grid are taken away.
+    frames : sequence of array_like
+        Images of one shape.
+    poses : sequence of array_like, shape (n, 2), optional
+        For each frame its key points.
+    triangles : array_like of int, shape (F, 3), optional
+        The numbers of each triangle's corners; needed where there are poses.
+    hold : int
+        Number of frames for which the end is shown.
+
+    Returns
+    -------
+    matplotlib.animation.FuncAnimation
+        Keep it in a variable for as long as the figure is shown.
+
+    Examples
+    --------
+    >>> import matplotlib.pyplot as plt
+    >>> import numpy as np
+    >>> from canim.plotting import animate_morph
+    >>> fig, ax = plt.subplots()
+    >>> film = animate_morph(ax, [np.full((9, 9), grey) for grey in range(0, 250, 25)])
+    >>> fig.canvas.draw()  # shows the first moment; plt.show() plays all
+    >>> plt.close(fig)
+    """
+    ax.set_axis_off()
+    # Black and white are the same in all frames, also of grey images.
+    image = ax.imshow(np.asarray(frames[0]), cmap="gray", vmin=0, vmax=255)
+    artists: list[Artist] = [image]
+    if poses is not None and triangles is not None:
+        lines = mesh(poses[0], triangles)
+        ax.add_collection(lines)
+        artists.append(lines)
+
+    def draw(frame: int) -> list[Artist]:
+        image.set_data(np.asarray(frames[frame]))
+        if poses is not None and triangles is not None:
+            lines.set_segments(edges(poses[frame], triangles))
+        return artists
+
+    return _film(ax, draw, len(frames), hold)
 
 
 def _level_colors(count: int) -> list[str]:
