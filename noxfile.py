@@ -187,6 +187,13 @@ def picture(session):
 
 
 @nox.session(default=False)
+def portraits(session):
+    """Make the portraits of canim.data again from the pictures they are parts of."""
+    install(session, "tests")
+    session.run("python", "docs/portraits.py")
+
+
+@nox.session(default=False)
 def bench(session):
     """Time canim against its peers and renew the table in docs/performance.md."""
     install(session, "bench")
