@@ -124,7 +124,7 @@ def _farthest(
     for other in others:
         score = np.minimum(score, _gaps(centres, half, other[::2]))
     # On its own curve a name is hard to read; away from it, it seems to belong to another.
-    score += np.minimum(_gaps(centres, half, points), beside)
+    score += 10 * np.minimum(_gaps(centres, half, points), beside)
     # Among places that are as good, one in the middle is found first.
     middle, size = np.add(inside.min, inside.max) / 2, np.subtract(inside.max, inside.min)
     score -= np.abs((centres - middle) / size).max(axis=1)
