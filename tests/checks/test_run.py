@@ -1,13 +1,14 @@
 """What a report says of right, missing, wrong and broken functions."""
 
 import sys
+import warnings
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import canim
-from canim import checks
+from canim import checks, interpolation
 from canim.checks.program import Program
 from canim.checks.task import Array, Case, Data, Function, Mistake, Part, Task, Unusable, at
 
@@ -174,6 +175,19 @@ def test_functions_are_called_quietly_and_once_for_the_same_arguments(capsys):
     assert len(calls) == 2
 
 
+def test_warnings_of_a_function_disturb_nobody():
+    def warning(t):
+        warnings.warn("look out", stacklevel=1)
+        return double(t)
+
+    assert checks.run(task(), {"f": warning}).done
+
+
+def test_infinite_results_give_no_warnings_of_ours():
+    endless = lambda *args: np.full((11, 2), np.inf)  # noqa: E731
+    assert not checks.run(checks.TASKS["1.7"], {"cubic_bezier": endless}).done
+
+
 def test_changing_the_arguments_is_told_and_does_no_harm():
     def changing(t):
         result = double(t)
@@ -203,6 +217,16 @@ def test_a_function_that_is_handed_to_another_stops_under_its_own_name():
 def test_canims_own_function_is_marked():
     report = checks.run(task(), {"f": lambda t: canims_double(t)})
     assert report.notes == ("f uses canim's function.",)
+
+
+def test_what_wraps_canims_functions_does_not_make_them_one():
+    def through_another(t):
+        interpolation.lerp(0, 1, t)
+        return [2 * t**3 - 3 * t**2 + 1, -2 * t**3 + 3 * t**2, t**3 - 2 * t**2 + t, t**3 - t**2]
+
+    assert checks.run(checks.TASKS["1.1"], {"hermite_basis": through_another}).notes == ()
+    marked = checks.run(checks.TASKS["1.1"], {"hermite_basis": interpolation.hermite_basis}).notes
+    assert marked == ("hermite_basis uses canim's function.",)
 
 
 def test_only_calls_of_canims_function_are_marked():

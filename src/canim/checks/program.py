@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import inspect
 import io
 import sys
 import warnings
@@ -40,7 +41,10 @@ class Program:
         self._task = task
         self._names = names
         self._results: dict[tuple[Any, ...], tuple[tuple[Any, ...], Any]] = {}
-        self._canim_codes = {getattr(f, "__code__", None) for f in task.canim_functions}
+        # What wraps a function, such as errstate, is the same code for all functions.
+        self._canim_codes = {
+            getattr(inspect.unwrap(f), "__code__", None) for f in task.canim_functions
+        }
         self.uses_canim: dict[str, None] = {}
         self.changes: dict[str, None] = {}
 
@@ -120,7 +124,6 @@ def _same(a: Any, b: Any) -> bool:
 def _quiet() -> Iterator[None]:
     with (
         warnings.catch_warnings(),
-        np.errstate(all="ignore"),
         contextlib.redirect_stdout(io.StringIO()),
     ):
         warnings.simplefilter("ignore")

@@ -17,6 +17,8 @@ from canim.checks.task import Mistake, Part, Task
 Compared = list[tuple[tuple[Any, ...], str, np.ndarray, np.ndarray]]
 
 
+# Differences of infinite results are nan, and their warnings would show our lines.
+@np.errstate(all="ignore")
 def run(task: Task, names: Mapping[str, Any], *, hint: bool = False) -> Report:
     """Return the report on the functions and data in `names`."""
     student = Program(task, names)
