@@ -80,6 +80,11 @@ def test_the_form_of_the_equations_does_not_matter(form):
     assert states(form) == DONE
 
 
+@pytest.mark.parametrize("size", [1e-300, 1e300])
+def test_the_size_of_the_numbers_does_not_matter(size):
+    assert states(lambda p, x, y: [size * row for row in _as_they_are(p, x, y)]) == DONE
+
+
 def test_lists_and_a_column_for_b_are_accepted():
     def written(x, y, start):
         A, b = system(_as_they_are(parts(x, y, start), x, y), 3 * (len(x) - 1))

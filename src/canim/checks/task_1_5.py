@@ -68,13 +68,19 @@ def _scaled(rows: Floats) -> Floats:
     return scaled
 
 
+def _unit(rows: Floats) -> Floats:
+    """Return the rows at length one; scaled, so that no square over- or underflows."""
+    rows = rows / np.abs(rows).max(axis=1, keepdims=True)
+    unit: Floats = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+    return unit
+
+
 def _outside(rows: Floats, others: Floats) -> Floats:
     """Return how far each row, at length one, is from the sums of multiples of the others."""
-    rows = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+    rows = _unit(rows)
     if not len(others):
         return np.ones(len(rows))
-    others = others / np.linalg.norm(others, axis=1, keepdims=True)
-    _, sizes, directions = np.linalg.svd(others, full_matrices=False)
+    _, sizes, directions = np.linalg.svd(_unit(others), full_matrices=False)
     directions = directions[sizes > 1e-9 * sizes[0]]
     apart: Floats = np.linalg.norm(rows - rows @ directions.T @ directions, axis=1)
     return apart
@@ -96,8 +102,7 @@ def _spare(system: Floats, right: Floats) -> list[int]:
 
 def _likeness(rows: Floats, right: Floats) -> Floats:
     """Return from 0 to 1 how much each row is like each equation, whatever the signs."""
-    a, b = (np.abs(m) / np.linalg.norm(m, axis=1, keepdims=True) for m in (rows, right))
-    likeness: Floats = np.round(a @ b.T, 9)
+    likeness: Floats = np.round(np.abs(_unit(rows)) @ np.abs(_unit(right)).T, 9)
     return likeness
 
 
@@ -251,6 +256,12 @@ def _heights_for_slopes(A: Floats, b: Floats, x: Floats, y: Floats, start: Any) 
         row[3 * i : 3 * i + 6] = [*knot, *np.negative(knot)]
 
 
+def _bends_for_slopes(A: Floats, b: Floats, x: Floats, y: Floats, start: Any) -> None:
+    for i, row in enumerate(_slope_rows(A, x)):
+        row[:] = 0
+        row[[3 * i, 3 * i + 3]] = 2, -2
+
+
 def _always(start: Literal["straight", "flat"]) -> dict[str, Any]:
     return {
         "quadratic_spline_system": lambda x, y, asked: interpolation.quadratic_spline_system(
@@ -383,6 +394,11 @@ TASK = Task(
             "heights in place of slopes",
             "This row says once more that the heights are equal. What is the slope of a piece?",
             _changed(_heights_for_slopes),
+        ),
+        Mistake(
+            "bends in place of slopes",
+            "This row makes the bends equal, 2 a. Which terms has the slope of a piece?",
+            _changed(_bends_for_slopes),
         ),
         Mistake(
             "start always straight",
