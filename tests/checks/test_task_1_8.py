@@ -46,10 +46,11 @@ def eight():
         eight(),
         (1e-2 * ellipse()).tolist(),
         1000 * eight() + 50,
+        ellipse() + 1e4,
         np.round(ellipse(), 4).tolist(),
         [[tuple(point) for point in segment] for segment in eight()],
     ],
-    ids=["ellipse", "eight", "small", "large and away", "rounded", "tuples"],
+    ids=["ellipse", "eight", "small", "large and away", "far away", "rounded", "tuples"],
 )
 def test_any_smooth_closed_shape_is_right(shape):
     assert joints(shape) == ["done"] * 4
@@ -64,9 +65,9 @@ def test_random_smooth_shapes_are_right_and_random_points_are_not(seed):
 
 
 @pytest.mark.parametrize("joint", range(4))
-@pytest.mark.parametrize("size", [1, 100])
-def test_a_small_kink_is_found_at_its_joint_and_nowhere_else(joint, size):
-    shape = size * ellipse()
+@pytest.mark.parametrize(("size", "away"), [(1, 0), (100, 0), (1e-3, 0), (1, 1000)])
+def test_a_small_kink_is_found_at_its_joint_and_nowhere_else(joint, size, away):
+    shape = size * ellipse() + away
     shape[(joint + 1) % 4, 1] += 0.02 * size
     assert joints(shape) == ["differs" if k == joint else "done" for k in range(4)]
 
