@@ -1,5 +1,6 @@
 """The command line: tasks, start, check."""
 
+import io
 import json
 import subprocess
 import sys
@@ -38,6 +39,14 @@ def test_tasks_lists_every_task(capsys):
     assert all(f"{task.id}  {task.title}" in out for task in checks.TASKS.values())
     assert "Interpolation" in out
     assert ("Image warping" in out) == any(t.block == "warping" for t in checks.TASKS.values())
+
+
+def test_tasks_are_listed_where_the_terminal_lacks_letters(monkeypatch):
+    out = io.TextIOWrapper(io.BytesIO(), encoding="ascii")
+    monkeypatch.setattr(sys, "stdout", out)
+    assert main(["tasks"]) == 0
+    out.flush()
+    assert b"1.7  Draw a cubic B?zier curve" in out.buffer.getvalue()
 
 
 def test_start_writes_the_starter_and_says_how_to_run_it(folder, capsys):
@@ -101,6 +110,12 @@ def test_check_hint_shows_the_hint_and_how_to_get_it(capsys):
     assert "Hint: Some texts misprint" in capsys.readouterr().out
 
 
+def test_the_way_to_the_hint_names_task_and_file_as_they_were_given(capsys):
+    wrong = "def hermite_basis(t):\n    return [t, -3 * t**3 + 3 * t**2, t, t]\n"
+    main(["check", write("my file.py", wrong), "--task", "1.1"])
+    assert 'canim check --hint --task 1.1 "my file.py"' in capsys.readouterr().out
+
+
 def test_check_looks_functions_up_whatever_the_file_itself_calls_or_prints(capsys):
     write("mine.py", DONE.replace("hermite_basis=hermite_basis", "hermite_basis=None") + "print(1)")
     assert main(["check", "mine.py"]) == 0
@@ -140,9 +155,29 @@ def test_answers_that_are_no_dictionary_count_as_none(capsys):
     assert "Questions answered: 0 of 3." in capsys.readouterr().out
 
 
+def test_answers_may_have_any_keys_and_values(capsys):
+    main(["check", write("mine.py", DONE + "\nanswers = {(1, 2): print, 2: ''}\n")])
+    assert "Questions answered: 1 of 3." in capsys.readouterr().out
+
+
 def test_a_loop_without_end_is_ended(capsys):
     assert main(["check", "--time", "3", write("mine.py", DONE + "\nwhile True: pass\n")]) == 1
     assert "did not end within 3 seconds" in " ".join(capsys.readouterr().out.split())
+
+
+@pytest.mark.parametrize("limit", ["0", "-1", "nan", "inf", "x"])
+def test_a_limit_is_a_number_above_0(limit, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["check", "mine.py", "--time", limit])
+    assert ended.value.code == 2
+    assert "--time" in capsys.readouterr().err
+
+
+def test_a_program_is_checked_as_python_would_run_it(capsys):
+    text = DONE + '\nfrom pathlib import Path\nassert Path(__file__).name == "mine.py"\nx = "\\d"\n'
+    assert main(["check", write("mine.py", text)]) == 0
+    assert main(["check", write("mine.py", DONE + "\ndef f(x: flot): pass\n")]) == 1
+    assert "The name flot is not known here." in capsys.readouterr().out
 
 
 def test_a_program_that_dies_is_told(capsys):

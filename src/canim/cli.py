@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import argparse
+import math
 import sys
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
 from canim import checks
+from canim.checks.report import printable
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -23,7 +25,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     check.add_argument("--task", help="number of the task, where the file does not say it")
     check.add_argument("--hint", action="store_true", help="show hints for known mistakes")
     check.add_argument(
-        "--time", type=float, default=60, metavar="SECONDS", help="limit (default: %(default)s)"
+        "--time", type=seconds, default=60, metavar="SECONDS", help="limit (default: %(default)s)"
     )
     asked = parser.parse_args(arguments)
     if asked.command == "tasks":
@@ -39,7 +41,7 @@ def _tasks() -> int:
         if tasks:
             print(title)
         for task in tasks:
-            print(f"  {task.id}  {task.title} ({task.minutes} minutes)")
+            print(printable(f"  {task.id}  {task.title} ({task.minutes} minutes)"))
     print("\nGet one into this folder with, for example: canim start 1.1")
     return 0
 
@@ -71,6 +73,14 @@ def _check(path: Path, task: str | None, hint: bool, limit: float) -> int:
         return _refuse(str(problem))
     checks.show(report)
     return 0 if report.done else 1
+
+
+def seconds(text: str) -> float:
+    """Return a time limit: a number above 0."""
+    seconds = float(text)
+    if not 0 < seconds < math.inf:
+        raise ValueError(text)
+    return seconds
 
 
 def _refuse(sentence: str) -> int:

@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import warnings
 from dataclasses import asdict
 from pathlib import Path
 from types import ModuleType
@@ -48,7 +49,7 @@ def check_file(
         If the file is not there, is not a task or cannot be read as Python.
     """
     found = _task_of(path, [tree for tree, _ in _parsed(path)], task)
-    how_to_hint = f"canim check --hint {path}"
+    how_to_hint = _command(path, task)
     with tempfile.TemporaryDirectory() as folder:
         answer = Path(folder) / "report.json"
         try:
@@ -79,6 +80,13 @@ def check_file(
     )
 
 
+def _command(path: Path, task: str | None) -> str:
+    """Return what to type to see the hints."""
+    named = f"--task {task} " if task else ""
+    file = f'"{path}"' if " " in str(path) else str(path)
+    return f"canim check --hint {named}{file}"
+
+
 def _empty(task: Task, reason: str) -> Report:
     results = tuple(Result(part.name, "waits", "not checked") for part in task.parts)
     return Report(task, results, notes=(f"The program {reason}",))
@@ -91,7 +99,9 @@ def _parsed(path: Path) -> list[tuple[ast.Module, str]]:
         lines = code.splitlines(keepends=True)
         linecache.cache[name] = (len(code), None, lines, name)
         try:
-            parsed.append((ast.parse(code, name), name))
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")  # Python gives them when the program is run
+                parsed.append((ast.parse(code, name), name))
         except SyntaxError as error:
             crash = explain(error, lambda _: False)
             raise UnusableFile(
@@ -154,13 +164,16 @@ def _run_here(path: Path, task: Task) -> dict[str, Any]:
     parsed = _parsed(path)
     names = {name for _, name in parsed}
     module = ModuleType("__main__")
+    if path.suffix == ".py":
+        module.__file__ = str(path)
     sys.modules["__main__"] = module
     sys.argv = [str(path)]
     sys.path.insert(0, str(path.parent))
     stopped = None
     try:
         for tree, name in parsed:
-            exec(compile(tree, name, "exec"), module.__dict__)
+            # The program must not inherit the __future__ import of this module.
+            exec(compile(tree, name, "exec", dont_inherit=True), module.__dict__)
     except Exception as error:
         stopped = asdict(explain(error, lambda file_name: file_name in names))
     except SystemExit:
@@ -171,11 +184,15 @@ def _run_here(path: Path, task: Task) -> dict[str, Any]:
         "results": [asdict(result) for result in report.results],
         "notes": report.notes,
         "stopped": stopped,
-        "answers": answers if isinstance(answers, dict) else {},
+        "answers": _as_text(answers) if isinstance(answers, dict) else {},
     }
+
+
+def _as_text(answers: dict[Any, Any]) -> dict[str, str]:
+    return {str(question): str(text) for question, text in answers.items()}
 
 
 if __name__ == "__main__":
     asked, number, answer = sys.argv[1:]
     told = _run_here(Path(asked), checks.find(number))
-    Path(answer).write_text(json.dumps(told, default=str), encoding="utf-8")
+    Path(answer).write_text(json.dumps(told), encoding="utf-8")

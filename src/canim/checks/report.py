@@ -162,7 +162,11 @@ def show(report: Report) -> None:
     if in_notebook():
         importlib.import_module("IPython.display").display(report)
         return
-    text = str(report)
+    print(printable(str(report)))
+
+
+def printable(text: str) -> str:
+    """Return `text` as the terminal can show it."""
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     try:
         text.encode(encoding)
@@ -170,7 +174,7 @@ def show(report: Report) -> None:
         for mark, plain in PLAIN_MARKS.items():
             text = text.replace(mark, plain)
         text = text.encode(encoding, "replace").decode(encoding)
-    print(text)
+    return text
 
 
 def in_notebook() -> bool:
