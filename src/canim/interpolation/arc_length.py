@@ -235,7 +235,8 @@ def _gauss(count: int) -> tuple[Floats, Floats]:
 def _lobatto(count: int) -> tuple[Floats, Floats]:
     """Return the nodes and weights of a Gauss-Lobatto rule on 0 to 1, both ends included."""
     legendre = np.polynomial.Legendre.basis(count - 1)
-    nodes = np.concatenate([[-1], legendre.deriv().roots(), [1]])
+    inner = legendre.deriv().roots().real  # numpy 2.5 returns them as complex numbers
+    nodes = np.concatenate([[-1], inner, [1]])
     return (nodes + 1) / 2, 1 / (count * (count - 1) * legendre(nodes) ** 2)
 
 
