@@ -116,10 +116,18 @@ def test_the_way_to_the_hint_names_task_and_file_as_they_were_given(capsys):
     assert 'canim check --hint --task 1.1 "my file.py"' in capsys.readouterr().out
 
 
-def test_check_looks_functions_up_whatever_the_file_itself_calls_or_prints(capsys):
-    write("mine.py", DONE.replace("hermite_basis=hermite_basis", "hermite_basis=None") + "print(1)")
+def test_check_looks_functions_up_whatever_the_file_itself_calls_or_prints(capfd):
+    noise = "import sys\nprint('noise')\nprint('noise', file=sys.stderr)\n"
+    write("mine.py", DONE.replace("hermite_basis=hermite_basis", "hermite_basis=None") + noise)
     assert main(["check", "mine.py"]) == 0
-    assert capsys.readouterr().out.count("Task 1.1") == 2
+    said = capfd.readouterr()
+    assert said.out.count("Task 1.1") == 2
+    assert "noise" not in said.out + said.err
+
+
+def test_a_file_beside_the_program_does_not_hide_a_module_of_ours():
+    write("json.py", "hidden = 1 / 0")
+    assert main(["check", write("mine.py", DONE)]) == 0
 
 
 def test_the_task_is_that_of_the_option_then_of_the_call_then_of_the_name(capsys):

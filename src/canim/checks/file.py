@@ -54,7 +54,8 @@ def check_file(
         answer = Path(folder) / "report.json"
         try:
             subprocess.run(
-                [sys.executable, "-m", __name__, path.resolve(), found.id, answer],
+                # -P: a json.py of the student's must not take the place of Python's.
+                [sys.executable, "-P", "-m", __name__, path.resolve(), found.id, answer],
                 cwd=path.resolve().parent,
                 env=os.environ | {"MPLBACKEND": "agg", "PYTHONIOENCODING": "utf-8"},
                 stdin=subprocess.DEVNULL,
