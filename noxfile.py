@@ -202,11 +202,11 @@ def bench(session):
     session.run("python", "bench", *session.posargs, env=plain)
 
 
-@nox.session(default=False)
+@nox.session(default=False, requires=["docs"])
 def linkcheck(session):
     """Follow every link that leaves the site."""
     install(session, "docs")
-    build_site(session, "linkcheck", "docs/_build/linkcheck", "-D", "plot_gallery=0")
+    build_site(session, "linkcheck", "docs/_build/linkcheck")
 
 
 @nox.session(default=False)

@@ -29,8 +29,13 @@ def _describe(app, pagename, templatename, context, doctree):
     text = GENERATED.get(pagename) or _first_sentences(doctree)
     tags = {"description": text}
     if SITE:
-        tags |= {"og:title": context["title"], "og:description": text, "og:type": "website",
-                 "og:url": f"{SITE}/{pagename}.html"}  # fmt: skip
+        tags |= {
+            "og:type": "website",
+            "og:title": context["title"],
+            "og:description": text,
+            "og:url": f"{SITE}/{pagename}.html",
+            "og:image": f"{SITE}/_static/canim.png",
+        }
     context["metatags"] = context.get("metatags", "") + "".join(
         f'<meta {"property" if ":" in name else "name"}="{name}" content="{escape(value)}">\n'
         for name, value in tags.items()
@@ -50,6 +55,8 @@ def _first_sentences(doctree):
 
 def _label(app):
     """Complete what the theme's templates leave out and offer no block for."""
+    if app.builder.format != "html":
+        return
     render = app.builder.templates.render
 
     def labelled(template, context):

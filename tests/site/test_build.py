@@ -62,6 +62,13 @@ def warnings(tmp_path):
     return build
 
 
+def test_links_can_be_checked(tmp_path):
+    (tmp_path / "index.rst").write_text("T\n=\n", encoding="utf-8")
+    alone = ("-C", "-D", "extensions=page_head")
+    built = sphinx(tmp_path, tmp_path / "links", "-b", "linkcheck", *alone)
+    assert built.returncode == 0, built.stderr
+
+
 KATEX = ("formulas", "-D", "html_math_renderer=katex")
 
 
