@@ -7,6 +7,7 @@ from html import escape
 
 from docutils import nodes
 from downloads import RELEASE
+from markupsafe import Markup
 from task_page import fold
 
 SITE = RELEASE.site.rstrip("/")
@@ -31,7 +32,7 @@ def _describe(app, pagename, templatename, context, doctree):
     if SITE:
         tags |= {
             "og:type": "website",
-            "og:title": context["title"],
+            "og:title": Markup(context.get("title", "Index")).striptags(),
             "og:description": text,
             "og:url": f"{SITE}/{pagename}.html",
             "og:image": f"{SITE}/_static/canim.png",

@@ -117,3 +117,19 @@ def test_scripts_run_again_when_canim_has_changed(tmp_path):
     (generated.parent / "figures.sha256").write_text("of an older canim", encoding="utf-8")
     freshness._forget(app, config)
     assert list(generated.iterdir()) == []
+
+
+def test_address_of_the_site_is_told(tmp_path, monkeypatch):
+    import page_head
+
+    monkeypatch.setattr(page_head, "SITE", "https://example.org/course")
+    index, search = {}, {"title": "Find &amp; <em>search</em>"}
+    page_head._describe(None, "genindex", "genindex.html", index, None)
+    page_head._describe(None, "search", "search.html", search, None)
+    assert 'content="https://example.org/course/genindex.html"' in index["metatags"]
+    assert '<meta property="og:title" content="Find &amp; search">' in search["metatags"]
+    app = SimpleNamespace(
+        outdir=tmp_path, env=SimpleNamespace(found_docs={"index", "gallery/index"})
+    )
+    page_head._map(app, None)
+    assert (tmp_path / "sitemap.xml").read_text(encoding="utf-8").count("<loc>https://") == 2
