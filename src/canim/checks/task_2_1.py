@@ -1,0 +1,358 @@
+"""Task 2.1: what "done" means for the affine map and for warping forward.
+
+The images of the check are numbered: red and green of a pixel are its column and row. So a
+pixel that arrived tells where it came from. Where several pixels arrive at one place, each of
+them is right, whatever the order in which they came.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from scipy.spatial import Delaunay
+
+from canim import warping
+from canim.checks.run import number
+from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
+
+# What pixels look like at which none arrives; numbered images do not have this colour.
+HOLE = np.array([255.0, 0.0, 255.0])
+STEP = 8  # between the colours of neighbours, so that no colour is mistaken for another
+EDGE = 1e-9  # weights this near to 0 are on an edge
+
+
+def numbered(width: int, height: int) -> Any:
+    """Return an image whose pixel (u, v) has the colour (8 u, 8 v, 7)."""
+    v, u = np.mgrid[:height, :width]
+    image: Any = np.stack([STEP * u, STEP * v, 0 * u + 7], axis=2).astype(np.uint8)
+    return image
+
+
+def columns(corners: Floats) -> Floats:
+    """Return the corners as columns x, y, 1."""
+    return np.vstack([corners.T, np.ones(3)])
+
+
+def affine_map(source: Floats, target: Floats) -> Floats:
+    """Return the matrix that takes the source corners to the target corners."""
+    return columns(target) @ np.linalg.inv(columns(source))
+
+
+def inside(corners: Floats, x: Any, y: Any, least: float = -EDGE) -> Any:
+    """Tell for each pixel whether no weight is below `least`."""
+    weights = np.linalg.inv(columns(corners)) @ [x.ravel(), y.ravel(), np.ones(x.size)]
+    return (weights >= least).all(axis=0).reshape(x.shape)
+
+
+def up(numbers: Any) -> Any:
+    """Return the nearest whole numbers, halves rounded up."""
+    return np.floor(numbers + 0.5).astype(int)
+
+
+def cut(numbers: Floats) -> Any:
+    """Return the numbers without their decimals."""
+    return numbers.astype(int)
+
+
+def sent(
+    image: Floats,
+    source: Floats,
+    target: Floats,
+    triangles: Any,
+    *,
+    round_to: Callable[[Floats], Any] = up,
+    find_in: str = "source",
+    least: float = -EDGE,
+    make_map: Callable[[Floats, Floats], Floats] = affine_map,
+    read: str = "vu",
+    write: str = "yx",
+    rows: int = 0,
+    cols: int = 0,
+    swap_sizes: bool = False,
+    wrap: bool = False,
+) -> Floats:
+    """Return the image warped forward, right or in one of the ways in which it goes wrong."""
+    height, width = image.shape[:2]
+    last = (width, height) if swap_sizes else (height, width)
+    v, u = np.mgrid[: min(last[0], height) - rows, : min(last[1], width) - cols]
+    warped = np.full(image.shape, HOLE)
+    for corners in triangles:
+        found = inside((source if find_in == "source" else target)[corners], u, v, least)
+        a, b = u[found], v[found]
+        x, y = round_to((make_map(source[corners], target[corners]) @ [a, b, 0 * a + 1])[:2])
+        stays = (x < width) & (y < height) & ((x >= 0) & (y >= 0) | wrap)
+        a, b, x, y = a[stays], b[stays], x[stays], y[stays]
+        colours = image[a, b] if read == "uv" else image[b, a]
+        warped[(x, y) if write == "xy" else (y, x)] = colours
+    return warped
+
+
+def _warped(program: Any, *args: Any) -> Floats:
+    """Return the student's image; a pixel that may be where it is counts as the expected one."""
+    image, source, target, triangles = args
+    got: Floats = program.warp_forward(*args)
+    expected = sent(*args)
+    height, width = image.shape[:2]
+    u, v = got[..., 0] / STEP, got[..., 1] / STEP
+    may = (got[..., 2] == 7) & (u < width) & (v < height) & (u % 1 == 0) & (v % 1 == 0)
+    y, x = np.nonzero(may)
+    a, b = u[may].astype(int), v[may].astype(int)
+    right = np.zeros(len(x), dtype=bool)
+    for corners in triangles:
+        place = up((affine_map(source[corners], target[corners]) @ [a, b, 0 * a + 1])[:2])
+        right |= inside(source[corners], a, b) & (place == [x, y]).all(axis=0)
+    result: Floats = got.copy()
+    result[y[right], x[right]] = expected[y[right], x[right]]
+    return result
+
+
+def is_filled(image: Floats) -> Floats:
+    """Return 1 for each pixel that is not a hole, 0 for the others."""
+    filled: Floats = (image != HOLE).any(axis=2).astype(float)
+    return filled
+
+
+def _filled(program: Any, *args: Any) -> Floats:
+    return is_filled(program.warp_forward(*args))
+
+
+def nothing(got: Floats) -> bool:
+    """Tell whether a colour or an image is all hole, or a mask of what is filled all empty."""
+    return bool((got == (0 if got.ndim == 2 else HOLE)).all())
+
+
+def _in_words(colour: Floats) -> str:
+    if (colour == HOLE).all():
+        return "a hole"
+    u, v = colour[:2] / STEP
+    if colour[2] != 7 or u % 1 or v % 1:
+        return f"the colour ({', '.join(map(number, colour))})"
+    return f"the colour of pixel ({u:g}, {v:g})"
+
+
+def describe(
+    got: Floats, expected: Floats, *args: Any, in_words: Callable[[Floats], str] = _in_words
+) -> str:
+    """Say for one pixel what is expected there and what came, and how many are wrong."""
+    height, width = expected.shape[:2]
+    wrong = got != expected if got.ndim == 2 else (got != expected).any(axis=2)
+    y, x = (int(k) for k in np.argwhere(wrong)[0])
+    if got.ndim == 3:
+        words = f"expected {in_words(expected[y, x])}, got {in_words(got[y, x])}"
+    elif expected[y, x]:
+        words = "expected a colour, got a hole"
+    else:
+        words = "expected a hole, got a colour"
+    others = int(wrong.sum()) - 1
+    more = f" (and at {others} more)" if others else ""
+    return f"{width} × {height} image, at ({x}, {y}): {words}{more}"
+
+
+def _entry(index: tuple[int, ...], *args: Any) -> str:
+    return f"row {index[0]}, column {index[1]} of A"
+
+
+def toy(width: int, height: int) -> tuple[Floats, Floats, Any]:
+    """Return key points like those of the toy pair, with the frame, and their triangles.
+
+    The triangulation of the source points alone would turn a triangle over.
+    """
+    size = np.array([width - 1, height - 1]) / 255
+    a = np.array([[78.3, 73.1], [78.7, 186.2], [147.4, 186.9]]) * size
+    b = np.array([[120.2, 25.3], [157.1, 139.6], [218.8, 47.2]]) * size
+    frame = np.array(
+        [[0, 0], [width - 1, 0], [0, height - 1], [width - 1, height - 1]], dtype=float
+    )
+    # The frame moves out a little: no place is a whole number, which rounding might miss.
+    moved = frame + np.array([[-0.23, -0.31], [0.27, -0.29], [-0.21, 0.33], [0.29, 0.24]])
+    a, b = np.vstack([a, frame]), np.vstack([b, moved])
+    return a, b, Delaunay((a + b) / 2).simplices
+
+
+def shifted() -> tuple[Floats, Floats, Any]:
+    """Return two triangles that hardly move: each pixel arrives where it was."""
+    a = np.array([[2.0, 2.0], [17.0, 2.0], [17.0, 12.0], [2.0, 17.0]])
+    return a, a + 0.25, np.array([[0, 1, 2], [0, 2, 3]])
+
+
+def _outwards() -> tuple[Floats, Floats, Any]:
+    """Return triangles that reach beyond the image."""
+    a = np.array([[0.0, 0.0], [19.0, 0.0], [0.0, 19.0], [19.0, 19.0]])
+    b = np.array([[-4.31, -3.77], [23.63, 0.41], [1.37, 24.13], [21.81, 22.97]])
+    return a, b, np.array([[0, 1, 2], [1, 3, 2]])
+
+
+SQUARE, WIDE = numbered(20, 20), numbered(24, 15)
+_CORNERS = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+_TURNED = np.array([[5.0, 7.0], [5.0, 9.0], [2.0, 7.0]])
+_TRIANGLE = np.array([[78.0, 73.0], [78.0, 186.0], [147.0, 186.0]])
+_OTHER = np.array([[120.0, 25.0], [157.0, 139.0], [218.0, 47.0]])
+
+
+def _forward(**change: Any) -> dict[str, Any]:
+    return {"warp_forward": lambda *args: sent(*args, **change)}
+
+
+def _triangles_of_the_source(image: Floats, source: Floats, target: Floats, _: Any) -> Floats:
+    return sent(image, source, target, Delaunay(source).simplices)
+
+
+def only_edges(got: Floats, expected: Floats, *args: Any) -> bool:
+    """Tell whether pixels are missing on the edges of triangles, and nothing else is wrong."""
+    _, source, _, triangles = args
+    y, x = np.nonzero(got != expected)
+    lost = np.ones(len(x), dtype=bool)
+    for corners in triangles:
+        lost &= ~inside(source[corners], x, y, EDGE)
+    return bool(lost.all() and (got[y, x] == 0).all())
+
+
+MAP, INSIDE, PLACE, COLOUR, WIDE_IMAGE = "affine map", "inside", "place", "colour", "wide image"
+WARPS = (INSIDE, PLACE, COLOUR, WIDE_IMAGE)
+
+TASK = Task(
+    id="2.1",
+    name="warp_forward",
+    title="Send every pixel to its new place",
+    block="warping",
+    writes="an affine map and a loop over pixels, about 12 lines",
+    minutes=45,
+    figure="Fig. 9, without the steps in between",
+    questions=3,
+    functions=(
+        Function(
+            "affine_map",
+            "affine_map(source, target)",
+            Array(lambda source, target: (3, 3), "a matrix of three rows and three columns"),
+            affine_map,
+        ),
+        Function(
+            "warp_forward",
+            "warp_forward(image, source, target, triangles)",
+            Array(lambda image, *_: image.shape, "an image as large as the one it is given"),
+            sent,
+        ),
+    ),
+    parts=(
+        Part(
+            MAP,
+            lambda program, source, target: program.affine_map(source, target),
+            (
+                Case((_TRIANGLE, _OTHER), "(78, 73), (78, 186), (147, 186) to B"),
+                Case((_CORNERS, _TURNED), "(0, 0), (1, 0), (0, 1) to (5, 7), (5, 9), (2, 7)"),
+            ),
+            _entry,
+        ),
+        Part(INSIDE, _filled, (Case((SQUARE, *shifted())),), unwritten=nothing, describe=describe),
+        Part(
+            PLACE,
+            _filled,
+            (Case((SQUARE, *toy(20, 20))), Case((SQUARE, *_outwards()))),
+            unwritten=nothing,
+            describe=describe,
+        ),
+        Part(
+            COLOUR,
+            _warped,
+            (Case((SQUARE, *toy(20, 20))), Case((SQUARE, *shifted()))),
+            unwritten=nothing,
+            describe=describe,
+        ),
+        Part(
+            WIDE_IMAGE, _warped, (Case((WIDE, *toy(24, 15))),), unwritten=nothing, describe=describe
+        ),
+    ),
+    mistakes=(
+        Mistake(
+            "points as rows",
+            "This matrix fits points that are rows. Here each point is a column, to its right.",
+            {"affine_map": lambda source, target: affine_map(source, target).T},
+            parts=(MAP,),
+        ),
+        Mistake(
+            "wrong order of the product",
+            "A stands to the left of T_source. On which side must the inverse stand?",
+            {"affine_map": lambda s, t: np.linalg.inv(columns(s)) @ columns(t)},
+            parts=(MAP,),
+        ),
+        Mistake(
+            "map inverted",
+            "This is the way back: it takes the target corners to the source corners.",
+            {"affine_map": lambda source, target: affine_map(target, source)},
+            parts=(MAP,),
+        ),
+        Mistake(
+            "pixels sent back",
+            "The pixels move the wrong way. From where to where does A go?",
+            _forward(make_map=lambda source, target: affine_map(target, source)),
+        ),
+        Mistake(
+            "decimals cut off",
+            "Every place is moved up and to the left: int alone cuts the decimals off.",
+            _forward(round_to=cut),
+        ),
+        Mistake(
+            "looked up in the target",
+            "In which of the two sets of points does the pixel (u, v) lie?",
+            _forward(find_in="target"),
+        ),
+        Mistake(
+            "triangles of the source points",
+            "Use the triangles that are given. Others turn over on the way.",
+            {"warp_forward": _triangles_of_the_source},
+        ),
+        Mistake(
+            "edges left out",
+            "Pixels on the edges of triangles are lost. Which weights has a pixel on an edge?",
+            _forward(least=EDGE),
+            only_edges,
+            (INSIDE,),
+        ),
+        Mistake(
+            "written with x first",
+            "Where you write a pixel: does the row or the column come first?",
+            _forward(write="xy"),
+            parts=(PLACE, COLOUR),
+        ),
+        Mistake(
+            "read with u first",
+            "Where you read a pixel: does the row or the column come first?",
+            _forward(read="uv"),
+            parts=(COLOUR,),
+        ),
+        Mistake(
+            "x and y exchanged",
+            "Rows and columns are exchanged where you read and where you write.",
+            _forward(read="uv", write="xy"),
+            parts=(PLACE, COLOUR),
+        ),
+        Mistake(
+            "height and width exchanged",
+            "How far does v go, and how far u? A square image does not tell.",
+            _forward(swap_sizes=True),
+        ),
+        Mistake(
+            "last row left out",
+            "The last row of the image is left out.",
+            _forward(rows=1),
+        ),
+        Mistake(
+            "last column left out",
+            "The last column of the image is left out.",
+            _forward(cols=1),
+        ),
+        Mistake(
+            "last row and column left out",
+            "The last row and the last column are left out: range ends before its end.",
+            _forward(rows=1, cols=1),
+        ),
+        Mistake(
+            "negative places",
+            "A place below 0 is outside as well; Python counts it from the other end.",
+            _forward(wrap=True),
+        ),
+    ),
+    canim_functions=(warping.affine_transforms, warping.warp_forward),
+)
