@@ -178,6 +178,12 @@ def test_kink_of_the_old_outline():
         assert kinks.tolist() == [0, 0, 0, 0]
 
 
+@pytest.mark.parametrize("closed", ["no", None, 1, [True]])
+def test_a_path_is_closed_or_not(closed):
+    with pytest.raises(TypeError, match=r"^closed must be True or False, but is "):
+        joint_kinks(PATH, closed)
+
+
 def test_joints_of_open_and_closed_paths():
     assert [kinks.shape for kinks in joint_kinks(PATH)] == [(2,), (2,)]
     assert [kinks.shape for kinks in joint_kinks(PATH, closed=True)] == [(3,), (3,)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Iterator
 from functools import cache
 
@@ -325,7 +326,7 @@ def joint_kinks(segments: ArrayLike, closed: bool = False) -> tuple[Floats, Floa
     Raises
     ------
     TypeError
-        If `segments` does not hold real numbers.
+        If `segments` does not hold real numbers, or `closed` is not a truth value.
     ValueError
         If `segments` has a wrong shape, is not finite, or a result does not fit a float.
 
@@ -349,6 +350,8 @@ def joint_kinks(segments: ArrayLike, closed: bool = False) -> tuple[Floats, Floa
     >>> np.degrees(angles).round(1), mismatches
     (array([6.2]), array([2.]))
     """
+    if not isinstance(closed, bool | np.bool_):
+        raise TypeError(f"closed must be True or False, but is {reprlib.repr(closed)}.")
     arriving = _segments(segments)
     leaving = np.roll(arriving, -1, axis=0)
     if not closed:
