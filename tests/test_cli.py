@@ -183,9 +183,16 @@ def test_a_limit_is_a_number_above_0(limit, capsys):
 
 def test_a_program_is_checked_as_python_would_run_it(capsys):
     text = DONE + '\nfrom pathlib import Path\nassert Path(__file__).name == "mine.py"\nx = "\\d"\n'
+    text += "import pickle\ndef f(): pass\npickle.loads(pickle.dumps(f))\n"
     assert main(["check", write("mine.py", text)]) == 0
     assert main(["check", write("mine.py", DONE + "\ndef f(x: flot): pass\n")]) == 1
     assert "The name flot is not known here." in capsys.readouterr().out
+
+
+def test_letters_of_all_kinds_do_no_harm(monkeypatch):
+    monkeypatch.setenv("PYTHONIOENCODING", "ascii")
+    mark = "\ufeff"  # some editors put it in front of a text
+    assert main(["check", write("mine.py", mark + DONE + "\nprint('ℓ', flush=True)\n")]) == 0
 
 
 def test_a_program_that_dies_is_told(capsys):
