@@ -249,7 +249,9 @@ def notebook(*cells):
 
 
 def test_notebooks_are_checked_and_lines_for_ipython_passed_over():
-    write("n.ipynb", notebook("%pip install canim\nif 1:\n    !ls", DONE))
+    write("n.ipynb", notebook("%pip install canim\nif 1:\n    !ls\nprint?\n# why?", DONE))
+    assert main(["check", "n.ipynb"]) == 0
+    write("n.ipynb", notebook("x = (7\n    % 4)\nassert x == 3", DONE))
     assert main(["check", "n.ipynb"]) == 0
 
 

@@ -95,22 +95,20 @@ def _empty(task: Task, reason: str) -> Report:
 
 def _parsed(path: Path) -> list[tuple[ast.Module, str]]:
     """Return the program, or each cell of the notebook, as a tree and its name in messages."""
-    parsed = []
-    for code, name in _sources(path):
-        lines = code.splitlines(keepends=True)
-        linecache.cache[name] = (len(code), None, lines, name)
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # Python gives them when the program is run
-                parsed.append((ast.parse(code, name), name))
-        except SyntaxError as error:
-            crash = explain(error, lambda _: False)
-            raise UnusableFile(
-                f"{name}, line {crash.line}: {crash.code}\n{crash.sentence}"
-            ) from None
-        except ValueError as error:
-            raise UnusableFile(f"{name} is not a Python program: {error}.") from None
-    return parsed
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # Python gives them when the program is run
+        return [_parse(code, name) for code, name in _sources(path)]
+
+
+def _parse(code: str, name: str) -> tuple[ast.Module, str]:
+    linecache.cache[name] = (len(code), None, code.splitlines(keepends=True), name)
+    try:
+        return ast.parse(code, name), name
+    except SyntaxError as error:
+        crash = explain(error, lambda _: False)
+        raise UnusableFile(f"{name}, line {crash.line}: {crash.code}\n{crash.sentence}") from None
+    except ValueError as error:
+        raise UnusableFile(f"{name} is not a Python program: {error}.") from None
 
 
 def _sources(path: Path) -> list[tuple[str, str]]:
@@ -131,9 +129,16 @@ def _sources(path: Path) -> list[tuple[str, str]]:
         codes = ["".join(cell["source"]) for cell in cells]
     except (ValueError, KeyError, TypeError):
         raise UnusableFile(f"{path} is not a Jupyter notebook.") from None
-    # Lines for IPython, such as %pip, are not Python.
-    codes = [re.sub(r"^(\s*)[%!].*$", r"\1pass", code, flags=re.M) for code in codes]
-    return [(code, f"{path}, code cell {i}") for i, code in enumerate(codes, 1)]
+    return [(_python_of(code), f"{path}, code cell {i}") for i, code in enumerate(codes, 1)]
+
+
+def _python_of(code: str) -> str:
+    """Return a cell's code without lines for IPython, such as %pip and print?."""
+    try:
+        ast.parse(code)
+    except (SyntaxError, ValueError):
+        return re.sub(r"^([ \t]*)(?:[%!?].*|[^#\n]*\?)$", r"\1pass", code, flags=re.M)
+    return code  # in Python, a line may begin with the operator %
 
 
 def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
