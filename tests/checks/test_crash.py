@@ -52,6 +52,15 @@ def test_the_line_is_the_last_one_of_the_students_file():
     assert explain(caught.value, lambda name: False).line == 0
 
 
+def test_the_line_is_that_of_the_function_that_is_called():
+    def own(x):
+        return 1 / x
+
+    with pytest.raises(ZeroDivisionError) as caught:
+        own(0)
+    assert explain(caught.value, lambda name: name == __file__).code == "return 1 / x"
+
+
 def test_a_syntax_error_has_its_own_line():
     error = SyntaxError("bad", ("nowhere.py", 3, 1, "x ="))
     assert explain(error, lambda name: True).line == 3
