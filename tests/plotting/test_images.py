@@ -111,9 +111,11 @@ def right(x, y, button=1):
     return 1, (x, y), button
 
 
-def test_clicked_points_are_returned_and_saved_for_the_next_time(folder, person, capsys):
+@pytest.mark.parametrize("style", ["default", "canim.style"])
+def test_clicked_points_are_returned_and_saved_for_the_next_time(folder, person, capsys, style):
     person(left(4, 5), right(6, 7), left(10, 11), right(12, 13), "enter")
-    a, b = pick_points(IMAGE, IMAGE, A, B, click=True)
+    with plt.style.context(style):
+        a, b = pick_points(IMAGE, IMAGE, A, B, click=True)
     assert a == pytest.approx(np.array([[4, 5], [10, 11]]))
     assert b == pytest.approx(np.array([[6, 7], [12, 13]]))
     assert "2 key points are saved in own_points.json" in capsys.readouterr().out

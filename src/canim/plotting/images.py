@@ -47,7 +47,7 @@ def draw_points(ax: Axes, points: ArrayLike, *, numbers: bool = False) -> None:
     ['0', '1']
     """
     xy = np.reshape(np.asarray(points, dtype=float), (-1, 2))
-    ax.plot(xy[:, 0], xy[:, 1], "o", color="red", markeredgecolor="white", clip_on=False)
+    ax.plot(xy[:, 0], xy[:, 1], "o", color="red", markersize=5, clip_on=False)
     for number, point in enumerate(xy):
         if numbers and np.isfinite(point).all():
             ax.annotate(
@@ -236,7 +236,9 @@ class _Clicks:
 
 def _click(images: Pair) -> Pair | None:
     """Open a window and return what is clicked; None where there is none or nothing."""
-    figure: Any = plt.figure("Click the same points on both images", figsize=(11, 5.5))
+    figure: Any = plt.figure(
+        "Click the same points on both images", figsize=(11, 5.5), layout="none"
+    )
     try:
         if figure.canvas.required_interactive_framework is None:
             print("There is no window to click in, so the saved points are used.")
@@ -285,8 +287,8 @@ def _saved_points(path: Path, images: Pair) -> Pair | None:
 
 def mesh(points: ArrayLike, triangles: ArrayLike) -> LineCollection:
     """Return triangles as lines that are seen on dark and on bright images."""
-    lines = LineCollection(edges(points, triangles), colors="white", linewidths=1.3)
-    lines.set_path_effects([effects.withStroke(linewidth=3, foreground="#333333")])
+    lines = LineCollection(edges(points, triangles), colors="white", linewidths=1)
+    lines.set_path_effects([effects.withStroke(linewidth=2.4, foreground="#333333")])
     return lines
 
 
