@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
+import tempfile
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -48,7 +50,9 @@ def _solved(file_name: str) -> dict[str, Any]:
     program = ModuleType("solved")
     show, checks.show = checks.show, lambda report: None
     try:
-        exec(compile(_completed()[file_name], file_name, "exec"), vars(program))
+        # A program may write files into the folder it runs in.
+        with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+            exec(compile(_completed()[file_name], file_name, "exec"), vars(program))
     finally:
         checks.show = show
         plt.close("all")
