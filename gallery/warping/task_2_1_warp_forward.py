@@ -268,4 +268,4 @@ for ax, name in zip(axes.flat, ["image A", "image B", "A to B", "B to A"]):
 # Read more
 # ---------
 # In canim: :func:`canim.warping.warp_forward`, :func:`canim.warping.affine_transforms` and
-# :func:`canim.warping.triangulate`. In the next task the holes go away.
+# :func:`canim.warping.triangulate`. Next: :ref:`Task 2.2 <task-2-2>`, where the holes go away.
