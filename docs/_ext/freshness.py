@@ -12,6 +12,7 @@ from pathlib import Path
 import canim
 
 EXT = Path(__file__).parent
+BUILD_INFO = ".buildinfo"
 
 
 def _digest(folder, *files):
@@ -54,9 +55,25 @@ def _remove_old_pages(app, exception):
             page.unlink()
 
 
+def _bring_build_info(app):
+    """Fetch what Sphinx noted of its settings; they name folders, so the site does not have it."""
+    _move(Path(app.doctreedir, BUILD_INFO), Path(app.outdir, BUILD_INFO))
+
+
+def _take_build_info(app, exception):
+    _move(Path(app.outdir, BUILD_INFO), Path(app.doctreedir, BUILD_INFO))
+
+
+def _move(source, target):
+    if source.exists():
+        source.replace(target)
+
+
 def setup(app):
     # Cards and formulas are made while reading and writing: a change there concerns all pages.
     app.add_config_value("page_sources", "", "env", types=str)
     app.connect("config-inited", _forget)
+    app.connect("builder-inited", _bring_build_info)
     app.connect("build-finished", _remove_old_pages)
+    app.connect("build-finished", _take_build_info)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
