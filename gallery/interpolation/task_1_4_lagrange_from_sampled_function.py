@@ -101,11 +101,14 @@ canim.plotting.label_curves(ax)
 # Your task
 # ---------
 # Choose your curve ``f`` and at least three nodes. Then write the two functions. For
-# :math:`L`, call ``canim.interpolation.lagrange_interpolate(nodes, values, x)``, or copy your
-# own from Task 1.3.
+# :math:`L`, call ``canim.interpolation.lagrange_interpolate(nodes, values, x)``. It needs the
+# whole name: the function is in the part ``interpolation`` of ``canim``. Or copy your own from
+# Task 1.3, with the two functions it uses.
 #
 # In ``sample(f, nodes)`` the first argument is a function. It is used like any other:
-# ``f(2)`` is its value at 2. What is not written yet is ``nan`` ("not a number").
+# ``f(2)`` is its value at 2. What is not written yet is ``nan`` ("not a number"), and whatever
+# you add to ``nan`` or multiply by it stays ``nan``. Your curve may not fit the window at
+# once: change ``left``, ``right``, ``bottom`` and ``top`` at the beginning of the program.
 
 
 def f(x):
@@ -113,7 +116,7 @@ def f(x):
     return np.nan * x  # TODO: your curve, such as 1 / x or np.sin(x)
 
 
-nodes = np.array([1, np.nan, np.nan])  # TODO: three places or more; the first is given
+nodes = np.array([1.0, np.nan, np.nan])  # TODO: three places or more; the first is given
 
 
 def sample(f, nodes):
@@ -143,17 +146,19 @@ canim.check("1.4", f=f, nodes=nodes, sample=sample, interpolate=interpolate)
 fig, ax = plt.subplots(num="Yours")
 ax.set(xlim=(left, right), ylim=(bottom, top), xlabel="x", ylabel="y")
 heights = [f(place) for place in x]
+known = np.isfinite([*nodes, *sample(f, nodes)]).all()  # L needs every node and value
 ax.plot(x, heights, "--", color="mediumseagreen", linewidth=4, label="f")
-ax.plot(x, interpolate(f, nodes, x), "--", color="black", label="L")
+L = interpolate(f, nodes, x) if known else np.nan * x
+ax.plot(x, L, "--", color="black", label="L")
 ax.plot(nodes, sample(f, nodes), "o", color="red")
 canim.plotting.label_curves(ax)
 
 # %%
 # Think about it
 # --------------
-# 1. Take ``1 / (1 + 25 * x**2)`` as your curve, 11 nodes ``np.linspace(-1, 1, 11)``, and the
-#    window from -1 to 1. Where will :math:`L` be far from :math:`f`? Predict, then draw it.
-#    This is called Runge's phenomenon.
+# 1. Take ``1 / (1 + 25 * x**2)`` as your curve and 11 nodes ``np.linspace(-1, 1, 11)``. Set
+#    ``left, right = -1, 1`` and ``bottom, top = -1, 2``. Where will :math:`L` be far from
+#    :math:`f`? Predict, then draw it. This is called Runge's phenomenon.
 # 2. Will more equally spaced nodes help? Predict, then try 21.
 # 3. Now take ``np.cos(np.pi * (np.arange(11) + 0.5) / 11)`` as nodes: Chebyshev nodes. What is
 #    different about their places, and what about the error?

@@ -118,7 +118,7 @@ def test_a_node_where_the_curve_has_no_height_is_named():
     [
         (lambda x: None, "f returns nothing (None)."),
         (lambda x: "1 / x", "f returns a text"),
-        (lambda x: np.array([x, x]), "f returns an array of shape (2,), expected ()"),
+        (lambda x: np.array([x, x]), "f returns an array of shape (2,), expected"),
         (lambda x: x + unknown, "f stops"),  # noqa: F821
     ],
 )
@@ -139,6 +139,27 @@ def test_samples_fixed_to_the_student_s_own_curve_do_not_pass():
     found = report(sample=lambda f, nodes: 1 / np.asarray(nodes)).results
     assert found[2].state == "differs"
     assert found[2].message.startswith("f(x) = 1/(1 + x**2) at 1, 2, 3, at nodes[0]")
+
+
+def test_a_curve_that_differs_is_told_with_its_place():
+    def too_high(f, nodes, x):
+        return interpolate(f, nodes, x) + 2 * (x == 2)
+
+    found = report(interpolate=too_high).results[3]
+    assert found.message == "your f and nodes, at x = 2: expected 0.5, got 2.5"
+    other = report(nodes=[1, 3, 4.5], interpolate=too_high).results[3]
+    assert other.message == "f(x) = 1/(1 + x**2) at 1, 2, 3, at x = 2: expected 0.2, got 2.2"
+
+
+def test_while_the_samples_are_missing_the_curve_is_not_written_rather_than_stopped():
+    def missing(f, nodes):
+        return np.full(len(nodes), np.nan)
+
+    def curve_of_it(f, nodes, x):
+        return lagrange_interpolate(nodes, missing(f, nodes), x)
+
+    assert states(sample=missing, interpolate=curve_of_it)[2:] == ["unwritten"] * 2
+    assert states(interpolate=curve_of_it)[2:] == ["done", "crashed"]
 
 
 def test_mistakes_are_told_with_any_curve_and_nodes():

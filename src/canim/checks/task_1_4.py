@@ -10,6 +10,7 @@ import numpy as np
 from canim import interpolation
 from canim.checks.crash import Crash
 from canim.checks.program import Stopped
+from canim.checks.run import number
 from canim.checks.task import Array, Case, Data, Floats, Function, Mistake, Part, Task, Unusable
 
 Curve = Callable[[Any], Any]
@@ -108,10 +109,20 @@ def _samples(program: Any, *given: Any) -> Any:
 
 
 def _curve(program: Any, *given: Any) -> Any:
-    if given:
-        return program.interpolate(*given)
-    own = _own(program)
-    return program.interpolate(*own, _places(own[1])) if own else np.empty(0)
+    """Return rows of a place and the height of L there; no row while nothing is known."""
+    if not given:
+        own = _own(program)
+        given = (*own, _places(own[1])) if own else ()
+    if not given:
+        return np.empty((0, 2))
+    f, nodes, x = given
+    try:
+        return np.column_stack([x, program.interpolate(f, nodes, x)])
+    except Stopped:
+        # L cannot be made of samples that are not written yet: no mistake.
+        if np.isnan(program.sample(f, nodes)).all():
+            return np.column_stack([x, np.nan * x])
+        raise
 
 
 def _places(nodes: Floats) -> Floats:
@@ -123,12 +134,20 @@ def _at_node(index: tuple[int, ...], *given: Any) -> str:
     return f"at nodes[{index[0]}]"
 
 
-def _at_x(index: tuple[int, ...], *given: Any) -> str:
-    return f"at x = {given[2][index[0]]:.3g}" if given else ""
-
-
 def _nothing_yet(got: Floats) -> bool:
     return bool(np.isnan(got).all())
+
+
+def _no_height_yet(got: Floats) -> bool:
+    return bool(np.isnan(got[:, 1]).all())
+
+
+def _at_x(got: Floats, expected: Floats, *given: Any) -> str:
+    """Return where the two differ most: the places come with the heights."""
+    error = np.nan_to_num(np.abs(got - expected)[:, 1], nan=np.inf)
+    (x, right), height = expected[error.argmax()], got[error.argmax(), 1]
+    label = {_hill: HILL, _wave: WAVE}[given[0]] if given else OWN.label
+    return f"{label}, at x = {x:.3g}: expected {number(right)}, got {number(height)}"
 
 
 OWN = Case((), "your f and nodes")
@@ -232,8 +251,8 @@ TASK = Task(
                 Case((_hill, PAGES_NODES, _places(PAGES_NODES)), HILL),
                 Case((_wave, OTHER_NODES, _places(OTHER_NODES)), WAVE),
             ),
-            _at_x,
-            unwritten=_nothing_yet,
+            unwritten=_no_height_yet,
+            describe=_at_x,
         ),
     ),
     mistakes=(
