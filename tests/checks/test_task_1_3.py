@@ -87,6 +87,13 @@ def test_four_nodes_written_out_are_half_of_the_task():
     assert states(lagrange_basis=written_out)[:2] == ["done", "crashed"]
 
 
+def test_nodes_may_come_in_any_order():
+    assert states(lagrange_basis=lambda nodes, x: basis(np.sort(nodes), x))[:2] == [
+        "done",
+        "differs",
+    ]
+
+
 def test_the_paper_s_points_give_the_cubic_found_by_the_original_program():
     cubic = [0.102857143, 0.143809524, -4.785714286, 0.173333333]
 
