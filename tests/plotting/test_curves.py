@@ -80,6 +80,16 @@ def test_markers_without_a_line_leave_the_space_between_them_free(ax):
     assert abs(centre[0] - 0.5) < 0.3
 
 
+def test_names_keep_clear_of_every_single_point(ax):
+    ax.set(xlim=(-3.5, 3.5), ylim=(0, 16))
+    x, y = np.array([-3, -1, 1, 3]), np.array([15, 5, 8, 9])
+    for i in range(3):
+        ax.plot(np.linspace(x[i], x[i + 1], 51), np.full(51, y[i]), label=f"f{i}")
+    ax.plot(x, y, "o")
+    label_curves(ax)
+    assert all(_distance(ax, text.get_window_extent(), x, y) > 10 for text in ax.texts)
+
+
 def test_a_line_across_the_axes_is_where_it_is_seen(ax):
     ax.set(xlim=(100, 200), ylim=(100, 200))
     ax.plot(100 + 100 * X, 150 + 10 * X, label="curve")

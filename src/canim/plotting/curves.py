@@ -122,7 +122,8 @@ def _farthest(
     centres = centres[fits] if fits.any() else centres
     score = np.full(len(centres), far)
     for other in others:
-        score = np.minimum(score, _gaps(centres, half, other[::2]))
+        # Curves are dense enough for half of their points; single points all count.
+        score = np.minimum(score, _gaps(centres, half, other[:: 2 if len(other) > 100 else 1]))
     # On its own curve a name is hard to read; away from it, it seems to belong to another.
     score += 10 * np.minimum(_gaps(centres, half, points), beside)
     # Among places that are as good, one in the middle is found first.
