@@ -105,7 +105,7 @@ def test_check_hint_shows_the_hint_and_how_to_get_it(capsys):
         "    return np.array([2*t**3-3*t**2+1, -3*t**3+3*t**2, t**3-2*t**2+t, t**3-t**2])\n",
     )
     assert main(["check", "task_1_1.py"]) == 1
-    assert "There is a hint: canim check --hint task_1_1.py" in capsys.readouterr().out
+    assert "There is a hint. Type: canim check --hint task_1_1.py" in capsys.readouterr().out
     assert main(["check", "--hint", "task_1_1.py"]) == 1
     assert "Hint: Some texts misprint" in capsys.readouterr().out
 

@@ -23,7 +23,7 @@ RESULTS = (
 
 
 def test_text_has_one_line_a_part_and_no_long_lines():
-    long = Result("H3, end slope", "crashed", "hermite_basis stops in line 3:\n  " + "long " * 40)
+    long = Result("H3, end slope", "differs", "expected 3, got 4 " + "long " * 40)
     text = str(Report(TASK, (*RESULTS, long), notes=("A note.",)))
     assert max(map(len, text.splitlines())) <= 90
     assert [line.strip()[0] for line in text.splitlines()[1:5]] == ["✓", "✗", "✗", "○"]
@@ -35,10 +35,27 @@ def test_a_hint_is_shown_once_though_it_explains_two_parts():
     assert Report(TASK, RESULTS)._repr_html_().count("Look &amp; see.") == 1
 
 
-def test_where_the_program_stopped_is_told_once():
+@pytest.mark.parametrize("state", ["crashed", "unusable"])
+def test_what_stops_a_function_is_told_first_and_blames_no_part(state):
+    broken = Result("H0, start value", state, "hermite_basis stops in line 3:\n  x = <y>")
+    report = Report(TASK, (broken, Result("H1, end value", "waits")))
+    lines = str(report).splitlines()
+    assert lines[1:3] == ["  ✗ hermite_basis stops in line 3:", "      x = <y>"]
+    assert lines[3:5] == [
+        "  – H0, start value  not checked yet",
+        "  – H1, end value    not checked yet",
+    ]
+    page = _Balanced()
+    page.feed(report._repr_html_())
+    assert page.open == []
+    assert page.text.count("x = <y>") == 1
+    assert page.text.index("x = <y>") < page.text.index("Part")
+
+
+def test_where_the_program_stopped_is_told_unless_a_function_is_broken():
     crash = Crash(7, "x = y", "The name y is not known here.")
-    told = Result("H0, start value", "crashed", f"hermite_basis {reports.stops(crash)}")
-    assert str(Report(TASK, (told,), stopped=crash)).count("line 7") == 1
+    told = Result("H0, start value", "crashed", "hermite_basis stops in line 3")
+    assert "line 7" not in str(Report(TASK, (told,), stopped=crash))
     other = str(Report(TASK, RESULTS[:1], stopped=crash))
     assert "The program stops in line 7:\n    x = y" in other
     assert not Report(TASK, RESULTS[:1], stopped=crash).done
@@ -46,6 +63,10 @@ def test_where_the_program_stopped_is_told_once():
 
 def test_a_crash_without_a_line_is_told_without_one():
     assert reports.stops(Crash(0, "", "Why.")) == "stops.\nWhy."
+
+
+def test_a_report_reads_the_same_wherever_it_is_printed():
+    assert repr(Report(TASK, RESULTS)) == str(Report(TASK, RESULTS))
 
 
 def test_answers_are_counted():

@@ -110,7 +110,7 @@ def test_infinity_is_a_difference():
         (np.array(["a"]), "f returns an array that does not hold numbers, expected two rows."),
         ({1: 2}, "f returns a value of type dict, expected two rows."),
         (np.zeros(3), "f returns an array of shape (3,), expected (2, 5): two rows."),
-        (7, "f returns an array of shape (), expected (2, 5): two rows."),
+        (7, "f returns one number, expected (2, 5): two rows."),
     ],
 )
 def test_none_wrong_type_or_shape_is_said_once(result, words):
@@ -211,7 +211,7 @@ def test_a_function_that_is_handed_to_another_stops_under_its_own_name():
     assert crashed.state == "crashed"
     assert crashed.message.startswith("f stops")
     (unusable,) = checks.run(changed, {"f": lambda t: 1.0, "g": lambda f, t: f(t)}).results
-    assert unusable.message == "f returns an array of shape (), expected (5,): one number per t."
+    assert unusable.message == "f returns one number, expected (5,): one number per t."
 
 
 def test_canims_own_function_is_marked():
@@ -256,7 +256,8 @@ def test_a_known_mistake_is_recognised_and_the_hint_comes_on_request():
     first = checks.run(task(), wrong)
     assert [r.mistake for r in first.results] == ["half", ""]
     assert "Twice, not half." not in str(first)
-    assert 'There is a hint: canim.check("9.9", hint=True, f=f)' in str(first)
+    assert "There is a hint. In your program, write hint=True into the call:" in str(first)
+    assert 'canim.check("9.9", hint=True, f=f)' in str(first)
     assert "Hint: Twice, not half." in str(checks.run(task(), wrong, hint=True))
 
 

@@ -49,7 +49,7 @@ def check_file(
         If the file is not there, is not a task or cannot be read as Python.
     """
     found = _task_of(path, [tree for tree, _ in _parsed(path)], task)
-    how_to_hint = _command(path, task)
+    how_to_hint = f"Type: {_command(path, task)}"
     with tempfile.TemporaryDirectory() as folder:
         answer = Path(folder) / "report.json"
         try:

@@ -17,10 +17,11 @@ STATES = {
     "done": ("✓", "done"),
     "unwritten": ("○", "not written yet"),
     "differs": ("✗", "differs"),
-    "crashed": ("✗", "stops"),
-    "unusable": ("✗", "cannot be compared"),
-    "waits": ("–", "waits for the part above"),
+    "crashed": ("–", "not checked yet"),
+    "unusable": ("–", "not checked yet"),
+    "waits": ("–", "not checked yet"),
 }
+BROKEN = ("crashed", "unusable")
 PLAIN_MARKS = {"✓": "+", "○": "o", "✗": "x", "–": "-"}
 
 
@@ -35,9 +36,9 @@ class Result:
     hint: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report:
-    """What a check found, part by part.
+    """What a check found: first what stops a function, then part by part.
 
     `notes` are sentences about the program as a whole; `answers` counts the questions
     answered, where the file was seen; `stopped` says where the file itself crashed.
@@ -59,7 +60,12 @@ class Report:
     @property
     def broken(self) -> bool:
         """Whether what follows in the program would stop for what is told already."""
-        return any(r.state in ("crashed", "unusable") for r in self.results)
+        return bool(self.problems)
+
+    @property
+    def problems(self) -> list[str]:
+        """What stops functions. It belongs to no part: the line may be any of theirs."""
+        return [r.message for r in self.results if r.state in BROKEN]
 
     @property
     def summary(self) -> str:
@@ -82,38 +88,47 @@ class Report:
     def _endings(self) -> list[str]:
         """Sentences below the parts."""
         lines = list(self.notes)
-        # A crash that a part has told is not told again.
-        if self.stopped and not any(stops(self.stopped) in r.message for r in self.results):
+        # Where a function is broken, what follows stops too: that is not told as well.
+        if self.stopped and not self.broken:
             lines.insert(0, f"The program {stops(self.stopped)}")
         if self.answers is not None:
             given = sum(bool(str(text).strip()) for text in self.answers.values())
             lines.append(f"Questions answered: {given} of {self.task.questions}.")
         return lines
 
+    def __repr__(self) -> str:
+        return str(self)
+
     def __str__(self) -> str:
         name_width = max(len(r.part) for r in self.results) + 2
         hints = dict(self.hints) if self.show_hints else {}
         lines = [f"Task {self.task.id}: {self.task.title}"]
+        for problem in self.problems:
+            lines += _wrapped(problem, "  ✗ ")
         for r in self.results:
             mark, words = STATES[r.state]
             head = f"  {mark} {r.part:<{name_width}}"
-            lines += _wrapped(r.message or words, head)
+            lines += _wrapped(words if r.state in BROKEN else r.message or words, head)
             if r.part in hints:
                 lines += _wrapped(f"Hint: {hints[r.part]}", " " * len(head))
         for line in self._endings:
             lines += _wrapped(line, "  ")
         lines.append(self.summary)
         if self.hints and not self.show_hints:
-            lines += _wrapped(f"There is a hint: {self.how_to_hint}", "")
+            lines += _wrapped(f"There is a hint. {self.how_to_hint}", "")
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
         rows = "".join(self._row(r) for r in self.results)
+        problems = "".join(
+            f'<p><span aria-hidden="true">✗</span> {_lines(text)}</p>' for text in self.problems
+        )
         endings = "".join(f"<p>{_lines(line)}</p>" for line in self._endings)
         return (
-            f'<div class="canim-report"><table><caption style="text-align:left">'
+            f'<div class="canim-report">{problems}<table><caption style="text-align:left">'
             f"{escape(self.summary)}</caption>"
-            f'<thead><tr><th scope="col">Part</th><th scope="col">Result</th></tr></thead>'
+            f'<thead><tr><th scope="col" style="text-align:left">Part</th>'
+            f'<th scope="col" style="text-align:left">Result</th></tr></thead>'
             f"<tbody>{rows}</tbody></table>{endings}</div>"
         )
 
@@ -126,7 +141,7 @@ class Report:
         return (
             f'<tr class="canim-{r.state}"><th scope="row" style="{cell}">{escape(r.part)}</th>'
             f'<td style="{cell}"><span aria-hidden="true">{mark}</span> '
-            f"{_lines(r.message or words)}{fold}</td></tr>"
+            f"{_lines(words if r.state in BROKEN else r.message or words)}{fold}</td></tr>"
         )
 
 

@@ -52,7 +52,8 @@ def run(task: Task, names: Mapping[str, Any], *, hint: bool = False) -> Report:
         tuple(results),
         notes=tuple(_notes(student)),
         show_hints=hint,
-        how_to_hint=f'canim.check("{task.id}", hint=True, {arguments})',
+        how_to_hint="In your program, write hint=True into the call:\n"
+        f'canim.check("{task.id}", hint=True, {arguments})',
     )
 
 

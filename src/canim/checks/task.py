@@ -47,9 +47,8 @@ class Array:
             raise Unusable(f"{self.verb} {_kind(result)}, expected {self.words}.") from None
         expected = self.shape(*args)
         if array.shape != expected:
-            raise Unusable(
-                f"{self.verb} an array of shape {array.shape}, expected {expected}: {self.words}."
-            )
+            what = f"an array of shape {array.shape}" if array.ndim else "one number"
+            raise Unusable(f"{self.verb} {what}, expected {expected}: {self.words}.")
         return array
 
 
