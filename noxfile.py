@@ -91,7 +91,7 @@ def build_site(session, builder, target, *options):
     install_node_packages(session)
     command = ["sphinx-build", "-W", "-n", "--keep-going", "-d", str(DOCTREES), "-b", builder]
     try:
-        session.run(*command, *options, *session.posargs, "docs", str(target))
+        session.run(*command, *options, "docs", str(target))
     except nox.command.CommandFailed:
         forget_site()
         raise
@@ -107,7 +107,7 @@ def forget_site():
 def docs(session):
     """Build the site into docs/_build/html; every gallery script runs."""
     install(session, "docs")
-    build_site(session, "html", SITE)
+    build_site(session, "html", SITE, *session.posargs)
     page = (SITE / "index.html").absolute()
     session.log(f"The site is ready. Open {page} or {page.as_uri()}")
 
@@ -164,11 +164,11 @@ def lint(session):
     session.run("mypy", "--strict", "src")
 
 
-@nox.session(default=False, requires=["docs"])
+@nox.session(default=False)
 def browser(session):
-    """Test the built site in a real browser (Chromium)."""
-    install(session, "docs", "browser")
-    install_node_packages(session)
+    """Build the site and test it in a real browser (Chromium)."""
+    install(session, "browser")
+    build_site(session, "html", SITE)
     # Without tests/conftest.py, which serves the other tests and needs what they need.
     options = ["--confcutdir=tests/site", "--site", str(SITE)]
     session.run("pytest", "tests/site", *options, *session.posargs)
@@ -208,7 +208,7 @@ def bench(session):
 def linkcheck(session):
     """Follow every link that leaves the site."""
     install(session, "docs")
-    build_site(session, "linkcheck", "docs/_build/linkcheck")
+    build_site(session, "linkcheck", "docs/_build/linkcheck", *session.posargs)
 
 
 @nox.session(default=False)
