@@ -224,5 +224,5 @@ for ax, name in zip(axes, ["A to B", "B to A"]):
 #
 # Read more
 # ---------
-# In canim: :func:`canim.warping.warp_backward`. In the next task one picture turns
-# into the other.
+# In canim: :func:`canim.warping.warp_backward`. Next: :ref:`Task 2.3 <task-2-3>`, where one
+# picture turns into the other.
