@@ -269,7 +269,8 @@ def test_no_window_is_opened_and_the_file_runs_in_its_folder(folder):
     (folder / "sub" / "data.txt").write_text("1", encoding="utf-8")
     (folder / "sub" / "own_module.py").write_text("y = 1", encoding="utf-8")
     text = DONE + (
-        "\nimport matplotlib\nassert matplotlib.get_backend().lower() == 'agg'"
+        "\nimport matplotlib\nmatplotlib.use('TkAgg')"
+        "\nassert matplotlib.get_backend().lower() == 'agg'"
         "\nopen('data.txt').close()\nimport own_module, sys\nassert __name__ == '__main__'"
         "\nassert len(sys.argv) == 1\nimport matplotlib.pyplot as plt\nplt.show()\n"
     )

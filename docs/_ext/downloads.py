@@ -34,13 +34,17 @@ def _say_how_to_install(app, config):
     wheel = escape(_wheel().name)
     if RELEASE.site:
         what = f"{RELEASE.site.rstrip('/')}/wheels/{wheel}"
-        first = "Once, before the first task, type"
+        first = "Once, before the first task: open a terminal and type"
     else:
         what = wheel
         link = f'<a href="{{up}}wheels/{wheel}" download>{wheel}</a>'
-        first = f"Once, before the first task: download {link} and type"
+        first = (
+            f"Once, before the first task: download {link}, open a terminal in the folder of "
+            "the download and type"
+        )
     config.install_line = (
-        f'<p class="task-install">{first} <code>python -m pip install {escape(what)}</code></p>\n'
+        f'<p class="task-install">{first} <code>python -m pip install {escape(what)}</code>. '
+        "You need Python 3.11 or newer.</p>\n"
     )
 
 
@@ -53,7 +57,7 @@ class Start(SphinxDirective):
         buttons = {
             f"Start with Task {first.id}": f"{first.page}.html",
             "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
-            "canim <span>(.whl)</span>": f"wheels/{_wheel().name}",
+            "The package canim <span>(.whl)</span>": f"wheels/{_wheel().name}",
         }
         links = "".join(
             f'<a href="{up}{escape(address)}" class="button">{text}</a>'

@@ -381,6 +381,12 @@ def test_check_ends_the_program_where_a_result_cannot_be_drawn(capsys):
     assert "returns nothing (None)" in capsys.readouterr().out
 
 
+@pytest.mark.parametrize("number", [1.1, None, ["1.1"]])
+def test_a_task_is_named_by_a_text(number):
+    with pytest.raises(TypeError, match=r'task must be a text such as "1\.1", but is '):
+        canim.check(number)
+
+
 def test_check_names_unknown_tasks_and_functions():
     with pytest.raises(ValueError, match=r"no task '9\.9'; there are 1\.1"):
         canim.check("9.9")

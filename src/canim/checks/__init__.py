@@ -41,9 +41,13 @@ def find(task: str) -> Task:
 
     Raises
     ------
+    TypeError
+        If `task` is not a text.
     ValueError
         If there is no such task.
     """
+    if not isinstance(task, str):
+        raise TypeError(f'task must be a text such as "1.1", but is {task!r}.')
     if task not in TASKS:
         raise ValueError(f"There is no task {task!r}; there are {', '.join(TASKS)}.")
     return TASKS[task]
@@ -68,7 +72,7 @@ def check(task: str, *, hint: bool = False, **functions: Any) -> None:
     ValueError
         If there is no such task.
     TypeError
-        If the task does not know one of the names.
+        If `task` is not a text, or the task does not know one of the names.
 
     Examples
     --------

@@ -16,6 +16,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import matplotlib
+
 from canim import checks
 from canim.checks.crash import Crash, explain
 from canim.checks.report import Report, Result
@@ -165,6 +167,8 @@ def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
 
 def _run_here(path: Path, task: Task) -> dict[str, Any]:
     """Run the file in this process and return what the report needs, as JSON can hold it."""
+    # A window would wait until somebody closes it.
+    vars(matplotlib)["use"] = lambda *args, **options: None
     # The file's own call would report twice, and end the program where a part crashes.
     checks.check = lambda *args, **functions: None
     parsed = _parsed(path)
