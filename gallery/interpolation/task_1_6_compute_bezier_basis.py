@@ -55,10 +55,10 @@ canim.plotting.label_curves(ax)
 # with probability :math:`t` and tails with probability :math:`1 - t`. You toss it three
 # times. How likely is it to see heads exactly once?
 #
-# * Take one such row of tosses: heads, tails, tails. Its probability is
+# * Take one such series of tosses: heads, tails, tails. Its probability is
 #   :math:`t\,(1 - t)\,(1 - t)`. Heads bring the **powers** of :math:`t`, tails the
 #   powers of :math:`1 - t`.
-# * Heads may also come second or third. There are three such rows, all equally likely:
+# * Heads may also come second or third. There are three such series, all equally likely:
 #   the **number of ways** is 3.
 #
 # The answer is :math:`3\,t\,(1 - t)^2`. In the same way, :math:`n` tosses show heads
@@ -153,7 +153,7 @@ canim.plotting.label_curves(ax)
 #    pass through, then?
 # 2. Predict for :math:`n = 5`: how many curves are there, and at which time is each of
 #    them highest? Then set ``n = 5`` and look.
-# 3. Set ``n = 10``. How high is the curve in the middle? What does that mean for somebody
+# 3. Set ``n = 10``. How high is the middle curve, b5? What does that mean for somebody
 #    who drags one of eleven control points?
 #
 # Read more

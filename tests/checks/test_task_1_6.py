@@ -59,7 +59,55 @@ def test_powers_alone_are_a_step_that_is_done():
             B[i] = t**i * (1 - t) ** (n - i)
         return B
 
-    assert states(half) == {"first curve": "done", POWERS: "done", WAYS: "differs"}
+    assert states(half) == {"first curve": "done", POWERS: "done", WAYS: "unwritten"}
+
+
+def test_numbers_told_of_the_powers_are_those_of_the_curves():
+    def powers_of_t(n, t):
+        B = starter(n, t)
+        for i in range(1, n + 1):
+            B[i] = t**i
+        return B
+
+    first, powers, ways = report(powers_of_t).results
+    assert (first.state, powers.state, ways.state) == ("done", "differs", "unwritten")
+    assert powers.message.startswith("n = 3, b1 at t = 1: expected 0, got 1")
+    assert powers.mistake == "no powers of 1 - t"
+
+
+def test_powers_alone_are_compared_with_powers_alone():
+    def one_less(n, t):
+        B = starter(n, t)
+        for i in range(1, n + 1):
+            B[i] = t**i * (1 - t) ** n
+        return B
+
+    powers = report(one_less).results[1]
+    assert powers.message.startswith("n = 3, b3 at t = 1: expected 1, got 0")
+    assert powers.mistake == "power n of 1 - t"
+
+
+@pytest.mark.parametrize("outside", [True, False])
+def test_an_exponent_without_brackets_is_recognised(outside):
+    def minus(n, t):
+        B = starter(n, t)
+        for i in range(1, n + 1):
+            B[i] = comb(n, i) * (t**i * (1 - t) ** n) - i * (1 if outside else comb(n, i))
+        return B
+
+    assert report(minus).results[1].mistake == "exponent without brackets"
+
+
+@pytest.mark.parametrize("ways", [lambda n, i: comb(3, i), lambda n, i: comb(i, n)])
+def test_a_wrong_number_of_ways_leaves_the_powers_alone(ways):
+    def wrong(n, t):
+        B = starter(n, t)
+        for i in range(1, n + 1):
+            B[i] = ways(n, i) * t**i * (1 - t) ** (n - i)
+        return B
+
+    assert states(wrong) == {"first curve": "done", POWERS: "done", WAYS: "differs"}
+    assert report(wrong).results[2].mistake
 
 
 def test_powers_that_are_swapped_in_the_loop_only_are_recognised():
@@ -81,7 +129,7 @@ def test_a_hard_wired_cubic_is_told_for_which_degree_it_stops():
         B[3] = t**3
         return B
 
-    assert "For n = 1" in str(report(cubic))
+    assert "For n = 1" in " ".join(str(report(cubic)).split())
 
 
 def test_one_curve_too_few_is_said_once():
@@ -94,7 +142,8 @@ def test_one_curve_too_few_is_said_once():
 
 
 def test_only_zeros_are_not_done():
-    assert not report(lambda n, t: np.zeros((n + 1, len(t)))).done
+    found = states(lambda n, t: np.zeros((n + 1, len(t))))
+    assert list(found.values()) == ["differs", "unwritten", "unwritten"]
 
 
 def test_a_fixed_number_of_ways_is_no_solution():
