@@ -109,10 +109,12 @@ film = canim.plotting.animate_construction(ax, [interpolation.de_casteljau(P, s)
 # %%
 # Your task
 # ---------
-# The line and the quadratic curve are given: read them first. Then write the cubic one.
+# The line and the quadratic curve are given: read them first. In their loops, ``k`` counts
+# 0, 1, 2, ... and ``s`` is the moment: ``enumerate`` gives both. Then write the cubic one.
 # ``P[0]`` is a point with an x and a y; a number times ``P[0]`` is a point, and so is the
 # sum of two points. The program runs as it is. What is not written yet is ``nan`` ("not a
-# number"), which draws nothing.
+# number"), which draws nothing. Whatever you add to ``nan`` stays ``nan``: a sum begins
+# with 0.
 
 
 def linear_bezier(P, t):
@@ -142,8 +144,9 @@ def cubic_bezier(P, t):
 # %%
 # Check and draw
 # --------------
-# The check looks at each pull alone, and then at the whole curve. Before you start it
-# says:
+# The check looks at each pull alone, and, once you have all four, at the whole curve. With
+# the pull of P0 alone, the picture shows a line from P0 to (0, 0): that is normal. Before you
+# start the check says:
 
 canim.check("1.7", cubic_bezier=cubic_bezier)
 
@@ -154,7 +157,7 @@ ax.set(xlim=(0, 50), ylim=(-15, 45), xlabel="x", ylabel="y")
 ax.plot(P[:, 0], P[:, 1], "o--", color="gray", linewidth=1.5)
 for k in range(4):
     ax.annotate(f"P{k}", P[k], xytext=(9, -5), textcoords="offset points")
-points = cubic_bezier(P, t)
+points = np.asarray(cubic_bezier(P, t))
 ax.plot(points[:, 0], points[:, 1], label="curve")
 canim.plotting.label_curves(ax)
 

@@ -18,18 +18,22 @@ NEVER_HALF = np.array([0.0, 0.2, 0.45, 0.8, 1.0])
 
 def _pull(k: int) -> Part:
     """Return the part that moves control point `k` by (1, 1): the curve follows its weight."""
-    moved = LOOP.copy()
-    moved[k] += 1
-    cases = (Case((LOOP, moved, T)), Case((LOOP, moved, NEVER_HALF)))
+    cases = (Case((LOOP, T)), Case((LOOP, NEVER_HALF)))
 
-    def measure(program: Any, before: Floats, after: Floats, t: Floats) -> Floats:
-        pull: Floats = program.cubic_bezier(after, t) - program.cubic_bezier(before, t)
-        return pull
+    def measure(program: Any, P: Floats, t: Floats) -> Floats:
+        return _change(program, k, P, t)
 
-    def place(index: tuple[int, ...], before: Floats, after: Floats, t: Floats) -> str:
+    def place(index: tuple[int, ...], P: Floats, t: Floats) -> str:
         return f"weight at t = {t[index[0]]:.3g}"
 
     return Part(f"pull of P{k}", measure, cases, place, unwritten=_nothing)
+
+
+def _change(program: Any, k: int, P: Floats, t: Floats) -> Floats:
+    moved = P.copy()
+    moved[k] += 1
+    change: Floats = program.cubic_bezier(moved, t) - program.cubic_bezier(P, t)
+    return change
 
 
 def _nothing(got: Floats) -> bool:
@@ -37,8 +41,10 @@ def _nothing(got: Floats) -> bool:
 
 
 def _curve(program: Any, P: Floats, t: Floats) -> Floats:
+    """Return the curve, or nan while some of its pulls are written and some are missing."""
     points: Floats = program.cubic_bezier(P, t)
-    return points
+    missing = [_nothing(_change(program, k, P, t)) for k in range(4)]
+    return np.full_like(points, np.nan) if 0 < sum(missing) < 4 else points
 
 
 def _coordinate(index: tuple[int, ...], P: Floats, t: Floats) -> str:
@@ -63,6 +69,16 @@ _handles_swapped = _weighted(
 _twos = _weighted(lambda t: [(1 - t) ** 3, 2 * (1 - t) ** 2 * t, 2 * (1 - t) * t**2, t**3])
 _no_squares = _weighted(lambda t: [(1 - t) ** 3, 3 * (1 - t) * t, 3 * (1 - t) * t, t**3])
 _quadratic = _weighted(lambda t: [(1 - t) ** 2, 2 * (1 - t) * t, t**2, 0 * t])
+
+
+def _first_moment_only(P: Floats, t: Floats) -> Floats:
+    points = interpolation.bezier_curve(P, t)
+    points[1:] = np.nan
+    return points
+
+
+def _rows_after_it(got: Floats, *_: Any) -> bool:
+    return bool(np.isnan(got[1:]).all() and not np.isnan(got[0]).any())
 
 
 def _own_points(P: Floats, t: Floats) -> Floats:
@@ -121,6 +137,12 @@ TASK = Task(
             "quadratic curve",
             "This is still the quadratic curve, which knows only three points.",
             {"cubic_bezier": _quadratic},
+        ),
+        Mistake(
+            "return in the loop",
+            "Only the first moment is there. Does return stand in the loop?",
+            {"cubic_bezier": _first_moment_only},
+            _rows_after_it,
         ),
         Mistake(
             "fixed control points",
