@@ -104,7 +104,7 @@ def _card(app, task, docname):
         _row("You write", nodes.Text(f"{task.writes}:"), *functions),
         _row("Builds on", *builds_on(task)),
         _row("Time", nodes.Text(f"about {task.minutes} minutes")),
-        _row("In the paper", nodes.Text(f"{task.figure} of Casas, 2021")),
+        _row("In the paper", nodes.Text(f"{task.figure} (Casas, 2021)")),
     )
     buttons = nodes.raw(
         "",
