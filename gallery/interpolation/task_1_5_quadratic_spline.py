@@ -166,8 +166,13 @@ canim.plotting.label_curves(ax)
 # ---------
 # Write the missing rows of ``A`` and ``b``, one equation a row. The numbers
 # :math:`a_i, b_i, c_i` of piece :math:`i` have the columns ``3 * i``, ``3 * i + 1`` and
-# ``3 * i + 2``. The equation of each piece's beginning is given. Use the rows named in the
-# comments, so that no equation overwrites another.
+# ``3 * i + 2``. The equation of each piece's beginning is given: the line that begins with
+# ``A[2 * i, 3 * i : 3 * i + 3]`` fills the columns ``3 * i``, ``3 * i + 1`` and ``3 * i + 2``
+# of row ``2 * i``. Use the rows named in the comments, so that no equation overwrites
+# another.
+#
+# The ends belong in the same loop. The equal slopes need a new loop after it, with one round
+# less: ``pieces - 1``.
 #
 # Where ``b`` is ``nan`` ("not a number"), the row is not written yet: also write a right side
 # that is 0. Solving is given. It leaves out such rows, so you see your path grow: first steps,
@@ -190,6 +195,7 @@ def quadratic_spline_system(x, y, start):
 
 def solve(A, b):
     """Return a, b, c of each piece: given. While rows are missing, pieces stay straight."""
+    A, b = np.asarray(A), np.asarray(b)
     written = ~np.isnan(b)
     bend = np.tile([1e-4, 1e-2, 1], len(b) // 3)  # little a, some b, as much c as needed
     return (np.linalg.lstsq(A[written] * bend, b[written])[0] * bend).reshape(-1, 3)
@@ -198,8 +204,8 @@ def solve(A, b):
 # %%
 # Check and draw
 # --------------
-# Run the program after every equation you write. The check tries both starts, whatever the
-# order of your rows. Before you begin it says:
+# Run the program after every equation you write. The check tries both starts and other
+# points. Before you begin it says:
 
 canim.check("1.5", quadratic_spline_system=quadratic_spline_system)
 

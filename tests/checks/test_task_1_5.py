@@ -139,6 +139,38 @@ def test_a_wrong_equation_is_shown_beside_the_right_one_and_others_stay_done():
     )
 
 
+def test_signs_are_shown_as_on_the_page_and_as_written():
+    def added(found, x, y):
+        for i, row in enumerate(found[2]):
+            row[3 * i + 3 :] *= -1
+        return _as_they_are(found, x, y)
+
+    assert report(added).results[2].message == (
+        "4 points, equal slopes of pieces 0 and 1 at x = -1: "
+        "expected -2 a0 + b0 + 2 a1 - b1 = 0, got -2 a0 + b0 - 2 a1 + b1 = 0"
+    )
+
+
+@pytest.mark.parametrize("with_slopes", [False, True])
+def test_a_row_written_twice_is_told_before_the_slopes_are_written_too(with_slopes):
+    def written(x, y, start):
+        pieces = len(x) - 1
+        A, b = np.zeros((3 * pieces, 3 * pieces)), np.full(3 * pieces, np.nan)
+        for i in range(pieces):
+            A[2 * i, 3 * i : 3 * i + 3], b[2 * i] = [x[i] ** 2, x[i], 1], y[i]
+            A[2 * i + 2, 3 * i : 3 * i + 3] = [x[i + 1] ** 2, x[i + 1], 1]
+            b[2 * i + 2] = y[i + 1]
+        for i in range(with_slopes * (pieces - 1)):
+            A[2 * pieces + i, 3 * i : 3 * i + 2] = [2 * x[i + 1], 1]
+            A[2 * pieces + i, 3 * i + 3 : 3 * i + 5] = [-2 * x[i + 1], -1]
+            b[2 * pieces + i] = 0
+        return A, b
+
+    found = checks.run(TASK, {"quadratic_spline_system": written}).results
+    assert found[0].mistake == "ends in the row of the next beginning"
+    assert {result.mistake for result in found[1:]} <= {found[0].mistake, ""}
+
+
 def test_every_single_wrong_number_is_found():
     def spoil(k, column):
         def change(found, x, y):

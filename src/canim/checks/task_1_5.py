@@ -60,11 +60,18 @@ def _accept(result: Any, x: Floats, y: Floats, start: Any) -> Floats:
     return system
 
 
-def _scaled(rows: Floats) -> Floats:
-    """Return the equations divided by the last coefficient on their left side."""
-    left = np.where(np.abs(rows[:, :-1]) > 1e-9 * np.abs(rows).max(axis=1, keepdims=True), 1, 0)
-    last = rows.shape[1] - 2 - np.argmax(left[:, ::-1], axis=1)
-    scaled: Floats = rows / rows[np.arange(len(rows)), last][:, None]
+def _scaled(row: Floats, equation: Floats) -> Floats:
+    """Return the row, times what makes most of its numbers those of the equation.
+
+    So what a student writes as on the page, but for a number or two, stays as it is. So
+    does what has at most one number in common with the equation, whatever the factor.
+    """
+    common = np.flatnonzero((np.abs(_unit(row[None]))[0] > 1e-9) & (equation != 0))
+    # Where as many agree on one factor as on another: that of the smallest number.
+    common = common[np.argsort(np.abs(equation[common]), kind="stable")]
+    factors = row[common] / equation[common]
+    agree = np.isclose(factors[:, None], factors, rtol=1e-9, atol=0).sum(axis=0)
+    scaled: Floats = row / factors[np.argmax(agree)] if agree.max(initial=0) > 1 else row
     return scaled
 
 
@@ -111,7 +118,7 @@ def _compared(system: Floats, right: Floats) -> Floats:
 
     That is the spare row most like it, or else nan.
     """
-    found = _scaled(right)
+    found = right.copy()
     written = np.isfinite(system).all(axis=1)
     absent = _outside(right, system[written]) > SAME
     found[absent] = np.nan
@@ -124,7 +131,7 @@ def _compared(system: Floats, right: Floats) -> Floats:
     likeness[:, ~absent] = -1
     while (best := float(likeness.max())) >= 0:
         row, equation = np.argwhere(likeness == best)[0]
-        found[equation] = _scaled(system[[spare[row]]])
+        found[equation] = _scaled(system[spare[row]], right[equation])
         likeness[row], likeness[:, equation] = -1, -1
     return found
 
@@ -224,6 +231,20 @@ def _ends_over_beginnings(A: Floats, b: Floats, x: Floats, y: Floats, start: Any
         A[2 * i + 1], b[2 * i + 1] = 0, np.nan
 
 
+def _ends_in_the_row_of_the_next_beginning(
+    A: Floats, b: Floats, x: Floats, y: Floats, start: Any
+) -> None:
+    for i in range(len(x) - 1):
+        A[2 * i + 1], b[2 * i + 1] = 0, np.nan
+        A[2 * i + 2, 3 * i : 3 * i + 3] += [x[i + 1] ** 2, x[i + 1], 1]
+
+
+def _slopes_over_the_last_end(A: Floats, b: Floats, x: Floats, y: Floats, start: Any) -> None:
+    slopes = A[2 * len(x) - 2, :6].copy()
+    _ends_in_the_row_of_the_next_beginning(A, b, x, y, start)
+    A[2 * len(x) - 2, :6] = slopes
+
+
 def _slope_rows(A: Floats, x: Floats) -> Floats:
     return A[2 * len(x) - 2 : -1]
 
@@ -298,7 +319,7 @@ TASK = Task(
     title="A smooth path from small pieces",
     block="interpolation",
     writes="rows of a linear system, about 12 lines",
-    minutes=50,
+    minutes=75,
     figure="Fig. 3",
     questions=3,
     functions=(
@@ -369,6 +390,16 @@ TASK = Task(
             "row written twice",
             "A later equation overwrites this one. Does every equation have a row of its own?",
             _changed(_ends_over_beginnings),
+        ),
+        Mistake(
+            "ends in the row of the next beginning",
+            "Rows are written twice: look at the row numbers. In which row does piece i end?",
+            _changed(_ends_in_the_row_of_the_next_beginning),
+        ),
+        Mistake(
+            "ends in the row of the next beginning, slopes over the last",
+            "Rows are written twice: look at the row numbers, first at those of the ends.",
+            _changed(_slopes_over_the_last_end),
         ),
         Mistake(
             "slopes added",
