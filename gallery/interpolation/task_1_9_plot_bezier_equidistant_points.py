@@ -70,13 +70,11 @@ film = canim.plotting.animate_points(ax, paths)
 # straight pieces along it, the **chords**, and add them up.
 
 samples = bezier_curve(P, np.linspace(0, 1, 6))
-rough = interpolation.arc_length(P, samples=6)
 
 # Picture: The curve in grey with six dots on it and five straight chords from dot to dot.
-# The chords cut the corners a little.
+# The curve bends away from the chords.
 fig, ax = plt.subplots()
-title = f"5 chords: {rough:.1f}, the curve: {interpolation.arc_length(P):.1f}"
-ax.set(xlim=(0, 50), ylim=(-13, 18), aspect="equal", title=title)
+ax.set(xlim=(0, 50), ylim=(-13, 18), aspect="equal", title="6 samples, 5 chords")
 ax.plot(*bezier_curve(P, t).T, color="gray", linewidth=1.5)
 ax.plot(*samples.T, "o-", color="C1")
 
@@ -93,7 +91,7 @@ ax.plot(*samples.T, "o-", color="C1")
 # sample to the next are called **forward differences**. The more samples, the better.
 #
 # Now the points at equal distances. Walk along the curve with a measuring wheel. At every
-# sample, write down the **walked way** so far, and where you are:
+# sample, write down the distance **walked** so far, and where you are:
 #
 # .. code-block:: text
 #
@@ -126,11 +124,13 @@ ax.plot(*samples.T, "o-", color="C1")
 #
 #    equidistant_points(P, count):
 #        points: many samples of the curve
-#        walked way: 0 at the first point; at each other
-#            point that of the point before, plus the chord
+#        walked: 0 at the first point;
+#            at each other point, walked
+#            at the point before, plus the chord
 #        goals: count distances in equal steps,
 #            from 0 to the whole length
-#        places: x and y at each goal, from the table
+#        places: x and y at each goal,
+#            from the table
 #        return the places
 
 # %%
@@ -138,7 +138,8 @@ ax.plot(*samples.T, "o-", color="C1")
 # ---------
 # First write the length, then the points. ``np.linalg.norm(b - a)`` is the distance from
 # the point ``a`` to the point ``b``. The program runs as it is. What is not written yet is
-# ``nan`` ("not a number"), which draws nothing.
+# ``nan`` ("not a number"), which draws nothing. Whatever you add to ``nan`` stays ``nan``: a
+# sum begins with 0.
 
 
 def compute_arc_length(P, samples):
@@ -153,9 +154,9 @@ def equidistant_points(P, count):
     """Return points at equal distances along the curve, one a row, with both ends."""
     points = bezier_curve(P, np.linspace(0, 1, 1000))
     walked = np.full(1000, np.nan)
-    walked[0] = 0  # walked way: at the first point nothing
+    walked[0] = 0  # walked: at the first point nothing
     places = np.full((count, 2), np.nan)
-    # TODO: walked way at all other points, one after the other
+    # TODO: walked: the distance so far at all other points, one after the other
     # TODO: goals, with np.linspace
     # TODO: places: both columns, x and y, with np.interp
     return places
@@ -164,8 +165,8 @@ def equidistant_points(P, count):
 # %%
 # Check and draw
 # --------------
-# The check knows that your length is not exact, and allows for it. Before you start it
-# says:
+# The check knows that your length is not exact, and allows for it. It judges the places when
+# both columns are there, x and y. Before you start it says:
 
 canim.check("1.9", compute_arc_length=compute_arc_length, equidistant_points=equidistant_points)
 
@@ -173,7 +174,7 @@ canim.check("1.9", compute_arc_length=compute_arc_length, equidistant_points=equ
 # below, a text says that the equal spacing is missing.
 fig, axes = plt.subplots(2, 1, num="Yours", figsize=(6.4, 6.8), sharex=True)
 by_time = bezier_curve(P, np.linspace(0, 1, count))
-by_distance = equidistant_points(P, count)
+by_distance = np.asarray(equidistant_points(P, count))
 for ax, dots, name in [
     (axes[0], by_time, "equal time steps"),
     (axes[1], by_distance, "equal spacing"),

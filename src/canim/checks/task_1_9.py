@@ -54,6 +54,10 @@ def _between(program: Any, P: Floats, count: int) -> Floats:
     return points
 
 
+def _column_missing(got: Floats) -> bool:
+    return bool(np.isnan(got).all(axis=0).any())
+
+
 def _end(index: tuple[int, ...], P: Floats, count: int) -> str:
     return f"{'xy'[index[1]]} of the {('first', 'last')[index[0]]} point"
 
@@ -108,11 +112,28 @@ def _start_is_off(got: Floats, expected: Floats, P: Floats, count: int) -> bool:
     return bool(0 < away[0] < 0.1 * interpolation.arc_length(P) / (count - 1))
 
 
-def _without_zero(P: Floats, count: int) -> Floats:
-    points = interpolation.bezier_curve(P, np.linspace(0, 1, 1000))[1:]
-    walked = np.cumsum(_lengths(P, 1000))
-    goals = np.linspace(0, walked[-1], count)
+def _from_table(
+    P: Floats, count: int, walked: Floats | None = None, first: int = 0, end: float | None = None
+) -> Floats:
+    """Return the places as the starter finds them, with this wrong in them."""
+    points = interpolation.bezier_curve(P, np.linspace(0, 1, 1000))[first:]
+    if walked is None:
+        walked = np.append(0, np.cumsum(_lengths(P, 1000)))
+    goals = np.linspace(0, walked[-1] if end is None else end, count)
     return np.column_stack([np.interp(goals, walked, column) for column in points.T])
+
+
+def _without_zero(P: Floats, count: int) -> Floats:
+    return _from_table(P, count, walked=np.cumsum(_lengths(P, 1000)), first=1)
+
+
+def _not_added(P: Floats, count: int) -> Floats:
+    return _from_table(P, count, walked=np.append(0, _lengths(P, 1000)))
+
+
+def _both_x(P: Floats, count: int) -> Floats:
+    places: Floats = interpolation.equidistant_points(P, count)[:, [0, 0]]
+    return places
 
 
 TASK = Task(
@@ -121,7 +142,7 @@ TASK = Task(
     title="Walk a curve in equal steps",
     block="interpolation",
     writes="a sum of chords and a walk along the curve, about 8 lines",
-    minutes=40,
+    minutes=45,
     figure="Figs. 6a and 6b",
     questions=3,
     builds_on=("1.7",),
@@ -142,8 +163,8 @@ TASK = Task(
     parts=(
         Part("length", _length, LENGTHS, tolerance=0.01),
         # 3 in 10,000 of the size are a few in 1000 of the distance from point to point.
-        Part(ENDS, _ends, POINTS, _end, tolerance=3e-4),
-        Part(SPACING, _between, POINTS, _inner, tolerance=3e-4),
+        Part(ENDS, _ends, POINTS, _end, unwritten=_column_missing, tolerance=3e-4),
+        Part(SPACING, _between, POINTS, _inner, unwritten=_column_missing, tolerance=3e-4),
     ),
     mistakes=(
         Mistake(
@@ -188,12 +209,30 @@ TASK = Task(
         ),
         Mistake(
             "equal time steps",
-            "These points are at equal steps of time. Where does the walked way come in?",
+            "These points are at equal steps of time. Where does the distance walked come in?",
             {
                 "equidistant_points": lambda P, count: interpolation.bezier_curve(
                     P, np.linspace(0, 1, count)
                 )
             },
+            parts=(ENDS, SPACING),
+        ),
+        Mistake(
+            "chords not added up",
+            "Is each distance walked longer than the one before? It must add the new chord.",
+            {"equidistant_points": _not_added},
+            parts=(ENDS, SPACING),
+        ),
+        Mistake(
+            "goals from 0 to 1",
+            "The last goal is 1. Which distance has been walked at the end of the curve?",
+            {"equidistant_points": lambda P, count: _from_table(P, count, end=1.0)},
+            parts=(ENDS, SPACING),
+        ),
+        Mistake(
+            "x in both columns",
+            "Both columns hold x. Which column of the points belongs to y?",
+            {"equidistant_points": _both_x},
             parts=(ENDS, SPACING),
         ),
         Mistake(
@@ -215,7 +254,7 @@ TASK = Task(
             parts=(ENDS, SPACING),
         ),
         Mistake(
-            "walked way without the 0",
+            "walked without the 0",
             "What has been walked at the very first point? Is that in your table?",
             {"equidistant_points": _without_zero},
             _start_is_off,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-import matplotlib.patheffects as effects
 import numpy as np
 from matplotlib.animation import FuncAnimation
 from matplotlib.artist import Artist
@@ -70,7 +69,7 @@ def animate_construction(
 
 
 def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> FuncAnimation:
-    """Make a film of points that move, each with its name beside it.
+    """Make a film of points that move; their names stand above.
 
     Parameters
     ----------
@@ -100,31 +99,24 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
     >>> plt.close(fig)
     """
     points = [np.asarray(path, float) for path in paths.values()]
-    dots, names = [], []
-    for k, (name, path) in enumerate(zip(paths, points)):
-        color = f"C{k}"
-        # Dots lie above the names, so that no name hides another dot.
-        dots += ax.plot(*path[:1].T, "o", color=color, markersize=12, zorder=5)
-        # Names take turns above and below, so that they are read where the points meet.
-        names.append(
-            ax.annotate(
-                name,
-                path[0],
-                xytext=(0, 15 if k % 2 == 0 else -27),
-                textcoords="offset points",
-                ha="center",
-                color=color,
-                # Otherwise the axes make room for the name, and jump while it moves.
-                in_layout=False,
-                path_effects=[effects.withStroke(linewidth=4, foreground=ax.get_facecolor())],
-            )
-        )
+    dots = [
+        ax.plot(*path[:1].T, "o", color=f"C{k}", markersize=12)[0] for k, path in enumerate(points)
+    ]
+    # Beside the dots, names would hide dots, the curve and each other.
+    ax.legend(
+        dots,
+        list(paths),
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        ncols=len(paths),
+        labelcolor="linecolor",
+        frameon=False,
+    )
 
     def draw(frame: int) -> list[Artist]:
-        for dot, name, path in zip(dots, names, points):
+        for dot, path in zip(dots, points):
             dot.set_data(path[frame : frame + 1, 0], path[frame : frame + 1, 1])
-            name.xy = (path[frame, 0], path[frame, 1])
-        return [*dots, *names]
+        return [*dots]
 
     return _film(ax, draw, len(points[0]), hold)
 

@@ -11,7 +11,7 @@ def equidistant_points(P, count):
     """Return points at equal distances along the curve, one a row, with both ends."""
     points = bezier_curve(P, np.linspace(0, 1, 1000))
     walked = np.full(1000, np.nan)
-    walked[0] = 0  # walked way: at the first point nothing
+    walked[0] = 0  # walked: at the first point nothing
     for k in range(1, 1000):
         walked[k] = walked[k - 1] + np.linalg.norm(points[k] - points[k - 1])
     goals = np.linspace(0, walked[999], count)
