@@ -104,10 +104,13 @@ for i, place in enumerate([(0.12, 0.35), (0.36, 0.5), (0.64, 0.5), (0.88, 0.65)]
 #
 #    bernstein_basis(n, t):
 #        for i from 0 to n:
-#            powers:          t to the power i,
-#                             times 1 - t to the power n - i
-#            number of ways:  n choose i
-#            row i:           number of ways times powers
+#            powers:
+#                t to the power i,
+#                times 1 - t to the power n - i
+#            number of ways:
+#                n choose i
+#            row i:
+#                number of ways times powers
 #        return the n + 1 rows
 
 # %%
