@@ -107,7 +107,7 @@ def forget_site():
 def docs(session):
     """Build the site into docs/_build/html; every gallery script runs."""
     install(session, "docs")
-    build_site(session, "html", SITE, *session.posargs)
+    build_site(session, "html", SITE)
     page = (SITE / "index.html").absolute()
     session.log(f"The site is ready. Open {page} or {page.as_uri()}")
 
@@ -164,11 +164,10 @@ def lint(session):
     session.run("mypy", "--strict", "src")
 
 
-@nox.session(default=False)
+@nox.session(default=False, requires=["docs"])
 def browser(session):
-    """Build the site and test it in a real browser (Chromium)."""
+    """Test the built site in a real browser (Chromium)."""
     install(session, "browser")
-    build_site(session, "html", SITE)
     # Without tests/conftest.py, which serves the other tests and needs what they need.
     options = ["--confcutdir=tests/site", "--site", str(SITE)]
     session.run("pytest", "tests/site", *options, *session.posargs)
