@@ -85,7 +85,8 @@ canim.plotting.label_curves(ax)
 #
 # Think of a recipe book. Each row of :math:`\mathbf{M}` is one recipe, and the wishes are
 # the ingredients. The row for :math:`a` is 2, −2, 1, 1: two parts of :math:`f(0)`, minus
-# two parts of :math:`f(1)`, one part of each slope. More in
+# two parts of :math:`f(1)`, one part of each slope. A wish that does not occur counts 0:
+# from :math:`a = f(1)` would come the row 0, 1, 0, 0. More in
 # :cite:t:`ShirleyMarschner2009`, chapter 15.
 
 # %%
@@ -112,9 +113,14 @@ canim.plotting.label_curves(ax)
 # %%
 # Your task
 # ---------
-# Fill in three rows of ``M``. Then write one line for the coefficients and one for the
-# curve. In Python, ``M @ wishes`` multiplies a matrix by a list of numbers. The order of the
-# two matters. What is not written yet is ``nan`` ("not a number").
+# Fill in three rows of ``M``, with plain numbers. Then write one line for the coefficients
+# and one for the curve. In Python, ``M @ wishes`` multiplies a matrix by a list of numbers. The
+# order of the two matters.
+#
+# In the program ``f0`` is :math:`f(0)`, ``f1`` is :math:`f(1)`, ``d0`` is :math:`f'(0)` and
+# ``d1`` is :math:`f'(1)`. The number ``d`` is something else: the last of the coefficients.
+# What is not written yet is ``nan`` ("not a number"). Whatever you add to ``nan`` or multiply
+# by it stays ``nan``.
 
 M = np.full((4, 4), np.nan)
 M[0] = [2, -2, 1, 1]  # row for a: given

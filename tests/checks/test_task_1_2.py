@@ -74,7 +74,46 @@ def test_rows_are_judged_one_by_one_and_what_needs_them_waits_unwritten():
 def test_a_wrong_number_is_named_by_its_wish():
     wrong = [M[0], [-3, 3, -2, 1], M[2], M[3]]
     result = checks.run(TASK, {"M": wrong}).results[1]
-    assert result.message.startswith("number for f'(1): expected -1, got 1")
+    assert result.message == "number for f'(1): 1 is not right"
+    half = checks.run(TASK, {"M": [M[0], [-3, 3, NAN, NAN], M[2], M[3]]}).results[1]
+    assert half.message == "number for f'(0): not written yet"
+
+
+def _of_matrix(matrix):
+    def product(f0, f1, d0, d1):
+        return np.array(matrix) @ np.array([f0, f1, d0, d1])
+
+    return {
+        "M": matrix,
+        "hermite_coefficients": product,
+        "hermite_curve": lambda t, *given: np.polyval(product(*given), t),
+    }
+
+
+def test_what_follows_from_a_wrong_number_is_not_told_as_a_second_mistake():
+    wrong = [M[0], [-3, 3, -2, 1], M[2], M[3]]
+    assert states(**_of_matrix(wrong)) == ["done", "differs", *["done"] * 4]
+    turned = _of_matrix(wrong) | {"hermite_coefficients": lambda *given: given @ np.array(wrong)}
+    assert states(**turned)[4] == "differs"
+
+
+def test_what_follows_from_wrong_coefficients_is_not_told_as_a_second_mistake():
+    def turned(f0, f1, d0, d1):
+        return np.array([f0, f1, d0, d1]) @ np.array(M)
+
+    names = {"hermite_coefficients": turned}
+    names["hermite_curve"] = lambda t, *given: np.polyval(turned(*given), t)
+    assert states(**names)[4:] == ["differs", "done"]
+
+
+def test_without_coefficients_the_curve_is_judged_by_the_matrix():
+    def stops(*given):
+        raise ValueError
+
+    wrong = _of_matrix([M[0], [-3, 3, -2, 1], M[2], M[3]])
+    assert states(**wrong | {"hermite_coefficients": stops})[4:] == ["crashed", "done"]
+    assert states(hermite_coefficients=stops)[4:] == ["crashed", "done"]
+    assert states(M=None, hermite_coefficients=stops)[4:] == ["crashed", "done"]
 
 
 @pytest.mark.parametrize(

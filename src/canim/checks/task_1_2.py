@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.program import Stopped
+from canim.checks.run import number
 from canim.checks.task import Array, Case, Data, Floats, Function, Mistake, Part, Task, at
 
 M = interpolation.HERMITE_MATRIX
@@ -33,9 +35,52 @@ def _row(k: int) -> Part:
     return Part(
         f"M, row for {'abcd'[k]}",
         lambda program: program.M[k],
-        place=lambda index: f"number for {WISHES[index[0]]}",
         expected=lambda program: M[k],
+        describe=_wrong_number,
     )
+
+
+def _wrong_number(got: Floats, expected: Floats) -> str:
+    """Return which number differs, but not what is right: that is the answer."""
+    k = int(np.argmax(~np.isclose(got, expected)))
+    if np.isnan(got[k]):
+        return f"number for {WISHES[k]}: not written yet"
+    return f"number for {WISHES[k]}: {number(got[k])} is not right"
+
+
+def _own_or_right(own: Any, right: Floats, tried: Floats) -> Floats:
+    """Return what follows from the student's own M, where that is what the student got.
+
+    What is right is as good: the numbers can be found without M. So a wrong number of M is
+    told once, in its row.
+    """
+    follows: Floats = np.asarray(own, dtype=float)
+    return follows if np.allclose(tried, follows, atol=1e-6, equal_nan=True) else right
+
+
+def _matrix(program: Any) -> Floats:
+    try:
+        matrix: Floats = program.M
+    except Stopped:
+        return M  # told where the rows are judged
+    return matrix
+
+
+def _expected_coefficients(program: Any, *given: float) -> Floats:
+    own = _matrix(program) @ np.array(given)
+    right = interpolation.hermite_coefficients(*given)
+    return _own_or_right(own, right, program.hermite_coefficients(*given))
+
+
+def _expected_curve(program: Any, t: Floats, *given: float) -> Floats:
+    """Return the curve of the student's own coefficients, where these stop of M, or the right."""
+    got = program.hermite_curve(t, *given)
+    right = interpolation.hermite_curve(t, *given)
+    try:
+        a, b, c, d = program.hermite_coefficients(*given)
+    except Stopped:
+        a, b, c, d = _matrix(program) @ np.array(given)
+    return _own_or_right(a * t**3 + b * t**2 + c * t + d, right, got)
 
 
 def _any_nan(got: Floats) -> bool:
@@ -83,7 +128,7 @@ TASK = Task(
     title="One movement from four wishes",
     block="interpolation",
     writes="three rows of a matrix, a product and a polynomial, 5 lines",
-    minutes=25,
+    minutes=35,
     figure="Fig. 1b",
     questions=3,
     builds_on=("1.1",),
@@ -109,6 +154,7 @@ TASK = Task(
             lambda program, *given: program.hermite_coefficients(*given),
             COEFFICIENTS,
             lambda index, *given: "abcd"[index[0]],
+            expected=_expected_coefficients,
             unwritten=_any_nan,
         ),
         Part(
@@ -116,6 +162,7 @@ TASK = Task(
             lambda program, *args: program.hermite_curve(*args),
             CURVES,
             at("t"),
+            expected=_expected_curve,
             unwritten=_any_nan,
         ),
     ),
