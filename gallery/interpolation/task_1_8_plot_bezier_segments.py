@@ -19,20 +19,21 @@ plt.style.use("canim.style")
 weights = canim.interpolation.bernstein_basis(3, np.linspace(0, 1, 51))  # Task 1.6
 
 
-def draw(ax, segments, name):
-    """Draw the curve of all segments as one line, and the handles in grey."""
+def draw(ax, segments, name, handles=True):
+    """Draw the curve of all segments as one line, and perhaps the handles in grey."""
     curve = np.vstack([weights.T @ P for P in segments])
     ax.plot(curve[:, 0], curve[:, 1], label=name)
-    x, y = np.reshape(segments, (-1, 2, 2)).T  # handles: from point 0 to 1 and from 2 to 3
-    ax.plot(x, y, "o-", color="gray", linewidth=1, markersize=4)
+    if handles:  # from point 0 to 1 and from 2 to 3
+        x, y = np.reshape(segments, (-1, 2, 2)).T
+        ax.plot(x, y, "o-", color="gray", linewidth=1, markersize=4)
 
 
 # %%
 # Expected result
 # ---------------
 # A closed shape of four curves, and inside it the copy: half as large and moved to the
-# right. The thin grey lines are the **handles**. At every joint, two of them lie on one
-# line. Your own shape may look different, as long as it is smooth.
+# right. The thin grey lines are the **handles** of the shape. At every joint, two of them
+# lie on one line. Your own shape may look different, as long as it is smooth.
 
 from canim import interpolation
 
@@ -46,12 +47,12 @@ shape.append(np.array([start, handle, last, shape[0][0]]))
 copy = interpolation.transform_points(shape, scale=0.5, translate=(10, 0))
 
 # Picture: A smooth closed shape like a bell with a small loop at its lower left corner.
-# Inside it lies the same shape, half as large. At each of the four joints two thin grey
-# handles form one straight line.
+# Inside it lies the same shape, half as large. At each of the four joints of the shape two
+# thin grey handles form one straight line.
 fig, ax = plt.subplots(num="Expected result")
 ax.set(xlim=(-5, 55), ylim=(-22, 24), xlabel="x", ylabel="y", aspect="equal")
 draw(ax, shape, "shape")
-draw(ax, copy, "copy")
+draw(ax, copy, "copy", handles=False)
 canim.plotting.label_curves(ax)
 
 # %%
@@ -80,8 +81,9 @@ canim.plotting.label_curves(ax)
 #
 # So the **next handle** :math:`\mathbf{Q}_1` is not free. You find it when you set the two
 # derivatives equal and solve for :math:`\mathbf{Q}_1`. Look at the handles in the picture
-# above to see what comes out: :math:`\mathbf{Q}_1` is the mirror image of
-# :math:`\mathbf{P}_2`, and the mirror stands at the joint.
+# above to see what comes out: go from :math:`\mathbf{P}_2` to :math:`\mathbf{P}_3`, then the
+# same way once more. You are at :math:`\mathbf{Q}_1`. From (1, 2) to (4, 3) you go 3 to the
+# right and 1 up; the same way once more, and you are at (7, 4).
 #
 # In a **closed shape** the last curve ends where the first one starts. There is a joint
 # there as well! The first curve is already drawn, so now the last handle is the one that
@@ -133,17 +135,20 @@ near.axline(kinked[2, 2], kinked[2, 3], color="red", linestyle=":", linewidth=1.
 # .. code-block:: text
 #
 #    next_handle(second_last, last):
-#        return the mirror image of second_last;
-#               the mirror stands at last
+#        next handle: go from second_last to last,
+#            then the same way once more
 #
 #    closed_shape():
 #        segment 1: four points of your choice
-#        joint 1 to 2: segment 2 starts where segment 1
-#            ends, with the next handle; then two free points
+#        joint 1 to 2: segment 2 starts where
+#            segment 1 ends, with the next handle;
+#            then come two free points
 #        joint 2 to 3: the same for segment 3
 #        joint 3 to 4: the same for segment 4
-#        joint 4 to 1: its last handle mirrors the first
-#            handle of segment 1; it ends where 1 starts
+#        joint 4 to 1: segment 4 ends where
+#            segment 1 starts; its last handle is
+#            found from the first handle of
+#            segment 1, as a next handle is
 #
 #    transform(points, scale, angle, move):
 #        scale: multiply x and y
@@ -154,15 +159,16 @@ near.axline(kinked[2, 2], kinked[2, 3], color="red", linestyle=":", linewidth=1.
 # Your task
 # ---------
 # Write the next handle, then close the shape, then make the copy. A segment has four
-# points: start, handle, handle, end. Segments 1 and 2 are given, but segment 2 needs your
-# next handle. Where a point is free, choose what you like. The program runs as it is.
+# points: start, handle, handle, end. Python counts from 0: segment 1 is ``S[0]``, and
+# ``S[0, 3]`` is its last point. Segments 1 and 2 are given, but segment 2 needs your next
+# handle. Where a point is free, choose what you like. The program runs as it is.
 # What is not written yet is ``nan`` ("not a number"), which draws nothing.
 
 
 def next_handle(second_last, last):
-    """Return the handle that goes on smoothly from these two points, each an (x, y)."""
+    """Return the handle that goes on smoothly from these two points, arrays of x and y."""
     handle = np.array([np.nan, np.nan])
-    # TODO: next handle: mirror second_last, the mirror stands at last
+    # TODO: next handle: go from second_last to last, then the same way once more
     return handle
 
 
@@ -171,9 +177,9 @@ def closed_shape():
     S = np.full((4, 4, 2), np.nan)
     S[0] = [(5, -10), (13, -2), (5, 20), (25, 20)]
     S[1] = [S[0, 3], next_handle(S[0, 2], S[0, 3]), (35, -2), (43, -10)]  # joint 1 to 2
-    # TODO: joint 2 to 3: write S[2]; it may end at (13, -10)
-    # TODO: joint 3 to 4: write S[3]
-    # TODO: joint 4 to 1: S[3] ends at S[0, 0]; its last handle mirrors S[0, 1]
+    # TODO: joint 2 to 3: write segment 3, S[2]; it may end at (13, -10)
+    # TODO: joint 3 to 4: write segment 4, S[3]
+    # TODO: joint 4 to 1: S[3] ends at S[0, 0]; last handle: on from S[0, 1] and S[0, 0]
     return S
 
 
@@ -189,18 +195,20 @@ def transform(points, scale, angle, move):
 # %%
 # Check and draw
 # --------------
-# The check looks at the joints of your shape, not at the shape itself. Before you start
-# it says:
+# The check looks at the joints of your shape, not at the shape itself. In the picture, the
+# grey handle at the right belongs to segment 2, whose curve waits for your next handle.
+# Before you start the check says:
 
 canim.check("1.8", next_handle=next_handle, closed_shape=closed_shape, transform=transform)
 
-# Picture: The same axes as above. Of the shape only segment 1, a curve at the left, is
-# there; a text says that the copy is missing.
+# Picture: The same axes as above. Of the shape only segment 1, a curve at the left, and one
+# grey handle at the right are there; a text says that the copy is missing.
 fig, ax = plt.subplots(num="Yours")
 ax.set(xlim=(-5, 55), ylim=(-22, 24), xlabel="x", ylabel="y", aspect="equal")
 shape = np.asarray(closed_shape())
 draw(ax, shape, "shape")
-draw(ax, [transform(P, 0.5, 0, np.array([10, 0])) for P in shape], "copy")
+copy = [transform(P, 0.5, 0, np.array([10, 0])) for P in shape]
+draw(ax, copy, "copy", handles=False)
 canim.plotting.label_curves(ax)
 
 # %%
@@ -208,8 +216,8 @@ canim.plotting.label_curves(ax)
 # --------------
 # 1. Predict: what do you see if the next handle points the right way but is twice as
 #    long? And what does a train on the curve do? Then try it in segment 2.
-# 2. Predict which copy you get with the scale -1, and which if you move first and scale
-#    after. Then try both.
+# 2. Predict which copy you get with the scale -1 and the move (50, 0), and which if you
+#    move first and scale after, with the old numbers. Then try both.
 # 3. Your four segments have 16 points. How many of them can you choose freely?
 #
 # Read more

@@ -67,11 +67,18 @@ def _joint(program: Any, joint: int) -> Floats:
 
 
 def _smooth_joint(program: Any, joint: int) -> Floats:
+    """Return what the joint needs, or what is there if it is that.
+
+    A joint that follows the student's own next handle is right: a wrong one is told once.
+    """
     (point, handle), dependent = _at_joint(program.closed_shape(), joint)
     smooth = np.array([point, 2 * point - handle])
     # Points may be written with a few decimals: what bends by a third of a degree is smooth.
-    near = np.abs(dependent - smooth).max() < 0.005 * np.linalg.norm(handle - point)
-    return dependent if near else smooth
+    near = 0.005 * np.linalg.norm(handle - point)
+    if np.isnan(point).any() or np.abs(dependent - smooth).max() < near:
+        return dependent
+    own = np.array([point, program.next_handle(handle, point)])
+    return dependent if np.abs(dependent - own).max() < near else smooth
 
 
 def _point_of_joint(index: tuple[int, ...], joint: int) -> str:
@@ -85,6 +92,14 @@ def _point_of_joint(index: tuple[int, ...], joint: int) -> str:
 def _transformed(program: Any, points: Floats, scale: float, angle: float, move: Floats) -> Floats:
     result: Floats = program.transform(points, scale, angle, move)
     return result
+
+
+def _whole(program: Any, points: Floats, scale: float, angle: float, move: Floats) -> Floats:
+    """Return the transformed points, or nan where scale or move alone are not right."""
+    unturned = _transformed(program, points, scale, 0.0, move)
+    if not _same(unturned, scale * points + move):
+        return np.full_like(points, np.nan)
+    return _transformed(program, points, scale, angle, move)
 
 
 def _moved(program: Any, points: Floats, scale: float, angle: float, move: Floats) -> Floats:
@@ -137,6 +152,10 @@ def _shape(
     return {"closed_shape": lambda: segments}
 
 
+def _only_x_goes_on(second_last: Floats, last: Floats) -> Floats:
+    return np.array([2 * last[0] - second_last[0], second_last[1]])
+
+
 def _transform(change: Callable[..., Floats]) -> dict[str, Callable[..., Floats]]:
     return {"transform": change}
 
@@ -167,7 +186,7 @@ TASK = Task(
     title="Join curves to a smooth shape",
     block="interpolation",
     writes="a handle, two segments and a transformation, about 8 lines",
-    minutes=40,
+    minutes=55,
     figure="Fig. 5",
     questions=3,
     builds_on=("1.6", "1.7"),
@@ -231,10 +250,10 @@ TASK = Task(
         ),
         Part(
             "scale, turn, move",
-            _transformed,
+            _whole,
             (
-                Case((POINTS, 0.5, 0.0, RIGHT), "scale 0.5, move (10, 0)"),
                 Case((POINTS, 2.0, 0.7, AWAY), "scale 2, angle 0.7, move (-3, 4)"),
+                Case((POINTS, 0.5, -2.0, -AWAY), "scale 0.5, angle -2, move (3, -4)"),
             ),
             _coordinate,
         ),
@@ -248,8 +267,20 @@ TASK = Task(
         ),
         Mistake(
             "mirrored about the wrong point",
-            "The mirror stands at the wrong one of the two points.",
+            "You go on from the wrong one of the two points: the joint is at last.",
             {"next_handle": lambda second_last, last: 2 * second_last - last},
+            parts=("next handle",),
+        ),
+        Mistake(
+            "mirrored about the origin",
+            "This goes through (0, 0). The way must go through the joint, which is at last.",
+            {"next_handle": lambda second_last, last: -second_last},
+            parts=("next handle",),
+        ),
+        Mistake(
+            "only x goes on",
+            "Only x goes on. What has y to do in the next handle?",
+            {"next_handle": _only_x_goes_on},
             parts=("next handle",),
         ),
         Mistake(

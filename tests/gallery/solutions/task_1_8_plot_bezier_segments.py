@@ -1,5 +1,5 @@
 def next_handle(second_last, last):
-    """Return the handle that goes on smoothly from these two points, each an (x, y)."""
+    """Return the handle that goes on smoothly from these two points, arrays of x and y."""
     handle = last + (last - second_last)
     return handle
 
