@@ -62,6 +62,8 @@ def _bring_build_info(app):
 
 def _take_build_info(app, exception):
     _move(Path(app.outdir, BUILD_INFO), Path(app.doctreedir, BUILD_INFO))
+    # Where a setting has changed, Sphinx keeps the note of the build before.
+    Path(app.outdir, f"{BUILD_INFO}.bak").unlink(missing_ok=True)
 
 
 def _move(source, target):
