@@ -52,6 +52,16 @@ def test_pulls_are_done_one_after_the_other():
     assert states(first_two) == ["done", "done", "unwritten", "unwritten", "unwritten"]
 
 
+def test_a_return_in_the_loop_is_told_once():
+    def only_the_first_moment(P, t):
+        points = np.full((len(t), 2), np.nan)
+        points[0] = by_coordinates(P, t)[0]
+        return points
+
+    assert states(only_the_first_moment) == ["differs"] + ["unwritten"] * 4
+    assert report(only_the_first_moment).results[0].mistake == "return in the loop"
+
+
 def test_a_single_wrong_weight_is_named():
     def three_missing(P, t):
         s = t[:, None]

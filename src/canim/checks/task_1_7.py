@@ -37,7 +37,7 @@ def _change(program: Any, k: int, P: Floats, t: Floats) -> Floats:
 
 
 def _nothing(got: Floats) -> bool:
-    return bool(np.isnan(got).all() or (got == 0).all())
+    return bool((np.isnan(got) | (got == 0)).all())
 
 
 def _curve(program: Any, P: Floats, t: Floats) -> Floats:

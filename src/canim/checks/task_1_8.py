@@ -278,6 +278,12 @@ TASK = Task(
             parts=("next handle",),
         ),
         Mistake(
+            "the joint itself",
+            "This is the joint itself. The handle lies further on: which way, and how far?",
+            {"next_handle": lambda second_last, last: last},
+            parts=("next handle",),
+        ),
+        Mistake(
             "only x goes on",
             "Only x goes on. What has y to do in the next handle?",
             {"next_handle": _only_x_goes_on},
