@@ -43,7 +43,8 @@ canim.plotting.label_curves(ax)
 # * the slope at the start, :math:`f'(0)`,
 # * the slope at the end, :math:`f'(1)`.
 #
-# The slope says how fast the value changes. Each wish has its own weight, and the
+# The slope says how fast the value changes. The little dash marks it: read :math:`f'` as
+# "f prime", the slope of :math:`f`. Each wish has its own weight, and the
 # weight changes with the time :math:`t`. The movement is the sum of the four wishes,
 # each times its weight:
 #
@@ -87,8 +88,11 @@ canim.plotting.label_curves(ax)
 # Your task
 # ---------
 # Write the three missing curves. :math:`H_0` is given: in Python ``t**3`` means
-# :math:`t^3`. The program runs as it is. What is not written yet is ``nan`` ("not a
-# number"), which draws nothing.
+# :math:`t^3`. The four curves are the rows of one table ``H``. So in the program
+# :math:`H_1` is written ``H[1]``, and so on.
+#
+# The program runs as it is. What is not written yet is ``nan`` ("not a number"), which
+# draws nothing.
 
 
 def hermite_basis(t):
@@ -123,8 +127,8 @@ canim.plotting.label_curves(ax)
 # --------------
 # 1. Look at :math:`H_0` and :math:`H_1` at any time. What is their sum? Predict it, then
 #    draw it with ``ax.plot(t, H[0] + H[1])``. Why must it be so?
-# 2. A ball shall lie still at the start and at the end. Which of the four curves does it
-#    need, and which not?
+# 2. A ball goes from one place to another. It rests at both: its speed is 0 at the start
+#    and at the end. Which of the four curves does its movement need, and which not?
 # 3. Some books print a 3 in place of the first 2 in :math:`H_1`. How does your picture
 #    show that this cannot be right?
 #

@@ -115,8 +115,9 @@ canim.plotting.label_curves(ax)
 #    lagrange_basis(nodes, x):
 #        for every node j:
 #            row j of the basis = 1
-#            for every node m other than j:
-#                multiply row j by the factor
+#            for every node m:
+#                if m is not j:
+#                    multiply row j by the factor
 #        return the basis
 #
 #    lagrange_interpolate(nodes, values, x):

@@ -43,6 +43,16 @@ def _start_slope_without_2(t: Floats) -> Floats:
     return basis
 
 
+def _start_slope_without_its_last_term(t: Floats) -> Floats:
+    basis = interpolation.hermite_basis(t)
+    basis[2] = t**3 - 2 * t**2
+    return basis
+
+
+def _slopes_swapped(t: Floats) -> Floats:
+    return interpolation.hermite_basis(t)[[0, 1, 3, 2]]
+
+
 def _decreasing_end_value(t: Floats) -> Floats:
     basis = interpolation.hermite_basis(t)
     basis[1] = 2 * t**3 - 3 * t**2
@@ -92,6 +102,16 @@ TASK = Task(
             "factor of H2",
             "Compare the factor before t squared in H2 with the formula.",
             {"hermite_basis": _start_slope_without_2},
+        ),
+        Mistake(
+            "H2 without its last term",
+            "H2 must be 0 at t = 1. Are all three terms of the formula there?",
+            {"hermite_basis": _start_slope_without_its_last_term},
+        ),
+        Mistake(
+            "slopes swapped",
+            "H2 is a hill and H3 a valley. Which of your two rows is the hill?",
+            {"hermite_basis": _slopes_swapped},
         ),
         Mistake(
             "signs of H1",

@@ -105,6 +105,18 @@ def _first_row_only(nodes: Floats, x: Floats) -> Any:
     return basis
 
 
+def _last_row_missing(nodes: Floats, x: Floats) -> Any:
+    basis = interpolation.lagrange_basis(nodes, x)
+    basis[-1] = np.nan
+    return basis
+
+
+def _last_node_left_out(nodes: Floats, x: Floats) -> Any:
+    basis = _factors(nodes, x)
+    basis[range(len(nodes)), range(len(nodes))] = 1
+    return basis[:, :-1].prod(axis=1)
+
+
 def _nodes_exchanged(nodes: Floats, x: Floats) -> Any:
     with np.errstate(all="ignore"):
         turned = (x[None, None, :] - nodes[:, None, None]) / (nodes - nodes[:, None])[:, :, None]
@@ -118,6 +130,14 @@ def _heights_forgotten(nodes: Floats, values: Floats, x: Floats) -> Any:
 
 def _last_term_only(nodes: Floats, values: Floats, x: Floats) -> Any:
     return values[-1] * interpolation.lagrange_basis(nodes, x)[-1]
+
+
+def _first_term_only(nodes: Floats, values: Floats, x: Floats) -> Any:
+    return values[0] * interpolation.lagrange_basis(nodes, x)[0]
+
+
+def _last_term_left_out(nodes: Floats, values: Floats, x: Floats) -> Any:
+    return values[:-1] @ interpolation.lagrange_basis(nodes, x)[:-1]
 
 
 def _nodes_in_place_of_values(nodes: Floats, values: Floats, x: Floats) -> Any:
@@ -203,6 +223,16 @@ TASK = Task(
             {"lagrange_basis": _first_row_only},
         ),
         Mistake(
+            "last row missing",
+            "Only the last row is not filled. How far does your loop over j count?",
+            {"lagrange_basis": _last_row_missing},
+        ),
+        Mistake(
+            "last node left out",
+            "The curves are not 0 at the last node. How far does your loop over m count?",
+            {"lagrange_basis": _last_node_left_out},
+        ),
+        Mistake(
             "heights forgotten",
             "Your L is 1 everywhere. Where do the heights of the points come in?",
             {"lagrange_interpolate": _heights_forgotten},
@@ -211,6 +241,16 @@ TASK = Task(
             "last term only",
             "Your L is the last term alone. What became of the terms before it?",
             {"lagrange_interpolate": _last_term_only},
+        ),
+        Mistake(
+            "first term only",
+            "Your L is the first term alone. How far to the right does its return stand?",
+            {"lagrange_interpolate": _first_term_only},
+        ),
+        Mistake(
+            "last term left out",
+            "The last point has no part in your L. How far does your loop count?",
+            {"lagrange_interpolate": _last_term_left_out},
         ),
         Mistake(
             "nodes in place of values",
