@@ -129,6 +129,19 @@ def test_a_row_too_many_is_a_wrong_shape_said_once():
     assert found[1].state == "waits"
 
 
+def test_what_follows_from_a_wrong_basis_is_not_told_as_a_second_mistake():
+    def doubled(nodes, x):
+        return 2 * np.array(basis(nodes, x))
+
+    def curve_of_it(nodes, values, x):
+        return values @ doubled(nodes, x)
+
+    found = states(lagrange_basis=doubled, lagrange_interpolate=curve_of_it)
+    assert found == ["differs", "differs", "done", "done"]
+    assert states(lagrange_interpolate=curve_of_it)[2:] == ["differs", "differs"]
+    assert states(lagrange_basis=lambda nodes, x: 1 / 0)[2:] == ["done", "done"]
+
+
 def test_while_the_basis_is_missing_the_curve_is_not_written_rather_than_wrong():
     def missing(nodes, x):
         return np.full((len(nodes), len(x)), np.nan)

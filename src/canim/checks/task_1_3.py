@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.program import Stopped
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 
 NODES = np.array([-8.0, -1.0, 2.0, 7.0])
@@ -48,6 +49,20 @@ def _basis(program: Any, nodes: Floats, x: Floats) -> Any:
 
 def _curve(program: Any, nodes: Floats, values: Floats, x: Floats) -> Any:
     return program.lagrange_interpolate(nodes, values, x)
+
+
+def _expected_curve(program: Any, nodes: Floats, values: Floats, x: Floats) -> Floats:
+    """Return what follows from the student's own basis if they got that, else what is right.
+
+    So a mistake in the basis is told once, where the basis is judged.
+    """
+    got = program.lagrange_interpolate(nodes, values, x)
+    right: Floats = interpolation.lagrange_interpolate(nodes, values, x)
+    try:
+        own: Floats = values @ program.lagrange_basis(nodes, x)
+    except Stopped:
+        return right
+    return own if np.allclose(got, own, equal_nan=True) and not np.isnan(own).all() else right
 
 
 def _in_row(index: tuple[int, ...], nodes: Floats, x: Floats) -> str:
@@ -173,8 +188,8 @@ TASK = Task(
     parts=(
         Part("basis, the four nodes", _basis, (OWN,), _in_row),
         Part("basis, any number of nodes", _basis, OTHERS, _in_row),
-        Part("L, the four points", _curve, (CURVE,), _at_x),
-        Part("L, any number of points", _curve, OTHER_CURVES, _at_x),
+        Part("L, the four points", _curve, (CURVE,), _at_x, _expected_curve),
+        Part("L, any number of points", _curve, OTHER_CURVES, _at_x, _expected_curve),
     ),
     mistakes=(
         Mistake(
