@@ -94,7 +94,7 @@ canim.plotting.label_curves(ax)
 #
 #    interpolate(f, nodes, x):
 #        values = the samples of f at the nodes
-#        L = the Lagrange curve through nodes and values
+#        L = the Lagrange curve through these
 #        return L
 
 # %%
