@@ -59,7 +59,7 @@ def test_powers_alone_are_a_step_that_is_done():
             B[i] = t**i * (1 - t) ** (n - i)
         return B
 
-    assert states(half) == {"first curve": "done", POWERS: "done", WAYS: "unwritten"}
+    assert states(half) == {"first curve": "done", POWERS: "done", WAYS: "differs"}
 
 
 def test_numbers_told_of_the_powers_are_those_of_the_curves():

@@ -65,10 +65,6 @@ def _no_curves(got: Floats) -> bool:
     return bool(np.isnan(got).all() or (got == 0).all())
 
 
-def _no_number(got: Floats) -> bool:
-    return _no_curves(got) or bool((got == 1).all())
-
-
 def _row_of_way(index: tuple[int, ...], n: int, t: Floats) -> str:
     return f"b{index[0] + 1}"
 
@@ -184,7 +180,7 @@ TASK = Task(
             expected=_only_powers_wrong,
             unwritten=_no_curves,
         ),
-        Part(WAYS, _ways, CASES, _row_of_way, unwritten=_no_number),
+        Part(WAYS, _ways, CASES, _row_of_way, unwritten=_no_curves),
     ),
     mistakes=(
         Mistake(
@@ -228,6 +224,12 @@ TASK = Task(
             {"bernstein_basis": _powers_of_t_alone},
             _with(_powers_of_t_alone),
             (POWERS,),
+        ),
+        Mistake(
+            "no number of ways",
+            "The powers stand for one series of tosses. How many series have heads i times?",
+            {"bernstein_basis": _powers},
+            parts=(WAYS,),
         ),
         Mistake(
             "comb turned round",
