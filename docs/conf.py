@@ -25,6 +25,7 @@ extensions = [
     "formulas",
     "pictures",
     "freshness",
+    "search_index",
     "task_page",
     "task_cards",
     "downloads",
