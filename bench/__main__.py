@@ -20,7 +20,10 @@ from timing import Row, duration, table
 HERE = Path(__file__).parent
 PAGE = HERE.parent / "docs/performance.md"
 MARK = "% Below this line nox -s bench writes.\n"
-VERSIONS = ("numpy", "scipy", "bezier", "svgpathtools")
+VERSIONS = (
+    *("numpy", "scipy", "pillow"),
+    *("bezier", "opencv-python-headless", "scikit-image", "svgpathtools"),
+)
 
 
 def benchmark(name: str) -> list[Row]:

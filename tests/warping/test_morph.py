@@ -245,8 +245,9 @@ def plain_gif(frames):
     return read_gif(film)[0]
 
 
-def test_gif_of_photographs_is_as_good_as_that_of_pillow(tmp_path):
-    frames = photographs()
+@pytest.mark.parametrize("count", [1, 6, 40])
+def test_gif_of_photographs_is_as_good_as_that_of_pillow(tmp_path, count):
+    frames = photographs(count, 80)
     assert save_gif(tmp_path / "film.gif", frames) is None
     found, info = read_gif(tmp_path / "film.gif")
     assert decibels(frames, found) >= decibels(frames, plain_gif(frames)) - 0.5

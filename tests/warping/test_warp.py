@@ -348,23 +348,26 @@ def test_memory_is_a_few_times_the_image(dtype, channels):
         assert peak(lambda call=call: call(image, *mesh)) <= 12 * image.nbytes
 
 
-def test_a_large_image():
-    image = np.zeros((8000, 8000), dtype=np.uint8)
+@pytest.mark.parametrize("shape", [(8000, 8000), (20, 9000)])
+def test_a_large_image(shape):
+    image = np.zeros(shape, dtype=np.uint8)
     image[:, ::2] = 255
-    source = add_frame_points([(4000.5, 4000)], image.shape)
-    target = add_frame_points([(4200.25, 3900)], image.shape)
+    middle = np.array(shape[::-1]) / 2
+    source = add_frame_points([middle + 0.5], image.shape)
+    target = add_frame_points([middle * (1.05, 0.975) + 0.25], image.shape)
     triangles = triangulate(source, target)
     warped = warp_backward(image, source, target, triangles)
-    rows = slice(3999, None, 1000)
+    height, width = shape
+    rows = slice(height // 2 - 1, None, height // 8)
     exact = np.zeros(image[rows].shape)
     maps = affine_transforms(target, source, triangles)
-    for i, y in enumerate(range(*rows.indices(8000))):
-        x = np.arange(8000.0)
-        places = np.stack([x, np.full(8000, float(y)), np.ones(8000)])
+    for i, y in enumerate(range(*rows.indices(height))):
+        x = np.arange(float(width))
+        places = np.stack([x, np.full(width, float(y)), np.ones(width)])
         for corners, matrix in zip(triangles, maps, strict=True):
             columns = np.vstack([target[corners].T, np.ones(3)])
             inside = np.linalg.solve(columns, places).min(axis=0) >= -1e-9
             u = (matrix @ places)[0, inside]
             f = u - np.floor(u)
             exact[i, inside] = 255 * np.where(np.floor(u) % 2 == 0, 1 - f, f)
-    assert np.abs(warped[rows] - exact).max() < 0.6
+    assert np.abs(warped[rows] - exact).max() < 0.75

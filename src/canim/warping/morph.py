@@ -6,6 +6,7 @@ import contextlib
 import io
 import os
 from collections.abc import Iterable, Iterator
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -31,8 +32,9 @@ from canim.warping.warp import (
 
 __all__ = ["morph", "morph_frames", "save_gif"]
 
-# A GIF's palette for photographs is made from this many of their pixels.
-_SAMPLE = 10_000
+# Up to so many photographs of a GIF share a palette, made from so many of their pixels.
+_RUN = 15
+_SAMPLE = 5_000
 
 
 def morph(
@@ -176,8 +178,8 @@ def save_gif(path: str | os.PathLike[str], frames: Iterable[ArrayLike], fps: flo
     r"""Save frames as an animated GIF that starts again at its end.
 
     A GIF has 256 colours. Drawings, most of whose pixels equal their right-hand neighbour, get a
-    palette for every frame, which keeps nearly all of their few colours. Photographs share one
-    palette, which is many times quicker.
+    palette for every frame, which keeps nearly all of their few colours. Of photographs up to 15
+    in a row share one, which is many times quicker.
 
     Parameters
     ----------
@@ -229,13 +231,17 @@ def save_gif(path: str | os.PathLike[str], frames: Iterable[ArrayLike], fps: flo
     if rate.ndim or not 0.01 <= rate <= 50:
         raise ValueError(f"fps must be one number from 0.01 to 50, but is {fps!r}.")
     images = _checked_frames(frames)
-    if images[0].ndim == 2 or _is_drawing(images):
-        first, *others = [Pictures.fromarray(image) for image in images]
-    else:
-        first, *others = _with_one_palette(images)
+    drawn = images[0].ndim == 2 or _is_drawing(images)
+    first, *others = map(Pictures.fromarray, images) if drawn else _with_shared_palettes(images)
     film = io.BytesIO()
-    duration = 10 * round(100 / float(rate))
-    first.save(film, "GIF", save_all=True, append_images=others, duration=duration, loop=0)
+    first.save(
+        *(film, "GIF"),
+        save_all=True,
+        append_images=others,
+        duration=10 * round(100 / float(rate)),
+        loop=0,
+        optimize=drawn,
+    )
 
     part = target.with_name(target.name + ".part")
     try:
@@ -349,16 +355,24 @@ def _is_drawing(images: list[Image]) -> bool:
     return bool(2 * np.count_nonzero(flat) > flat.size)
 
 
-def _with_one_palette(images: list[Image]) -> list[Pictures.Image]:
-    """Give all frames the palette of a sample, each pixel its nearest colour."""
-    rng = np.random.default_rng(0)
-    rows = [image.reshape(-1, 3) for image in images]
-    sample = [row[rng.integers(0, len(row), _SAMPLE // len(rows) + 1)] for row in rows]
-    quantized = Pictures.fromarray(np.concatenate(sample)[None]).quantize(256, kmeans=1)
-    palette = np.array(quantized.getpalette(), dtype=np.uint8).reshape(-1, 3)
+def _with_shared_palettes(images: list[Image]) -> list[Pictures.Image]:
+    # A short film has two: a single one would have to serve both ends of a morph.
+    count = max(2, -(-len(images) // _RUN))
+    edges = np.linspace(0, len(images), count + 1).round().astype(int).tolist()
+    runs = [images[a:b] for a, b in pairwise(edges) if a < b]
+    return [picture for run in runs for picture in _with_one_palette(run)]
 
+
+def _with_one_palette(images: list[Image]) -> list[Pictures.Image]:
+    """Give every pixel of some frames its nearest colour of one palette."""
+    palette = _palette(images)
     # The nearest colour is found once for all pixels that agree in the upper six bits.
-    cells = [np.ravel_multi_index(tuple(row.T >> 2), (64, 64, 64)).astype(np.int32) for row in rows]
+    cells = [
+        np.left_shift(image[:, :, 0] >> 2, 12, dtype=np.int32)
+        | np.left_shift(image[:, :, 1] >> 2, 6, dtype=np.int32)
+        | image[:, :, 2] >> 2
+        for image in images
+    ]
     seen = np.zeros(64**3, dtype=bool)
     for cell in cells:
         seen[cell] = True
@@ -367,7 +381,25 @@ def _with_one_palette(images: list[Image]) -> list[Pictures.Image]:
     nearest[seen] = KDTree(palette).query(middles)[1]
     pictures = []
     for cell in cells:
-        picture = Pictures.fromarray(nearest[cell].reshape(images[0].shape[:2]))
+        picture = Pictures.fromarray(nearest[cell])
         picture.putpalette(palette.tobytes())
         pictures.append(picture)
     return pictures
+
+
+def _palette(images: list[Image]) -> Image:
+    """Return up to 256 colours: median cut of a sample, then a few steps of k-means."""
+    rng = np.random.default_rng(0)
+    height, width = images[0].shape[:2]
+    size = _SAMPLE // len(images) + 1
+    parts = [image[rng.integers(0, height, size), rng.integers(0, width, size)] for image in images]
+    sample = np.concatenate(parts)
+    median_cut = Pictures.fromarray(sample[None]).quantize(256).getpalette()
+    palette = np.reshape(np.array(median_cut, dtype=np.float64), (-1, 3))
+    for _ in range(3):
+        nearest = KDTree(palette).query(sample)[1]
+        count = np.bincount(nearest, minlength=len(palette))
+        for channel in range(3):
+            total = np.bincount(nearest, sample[:, channel], minlength=len(palette))
+            np.divide(total, count, out=palette[:, channel], where=count > 0)
+    return np.rint(palette).astype(np.uint8)

@@ -235,18 +235,21 @@ def triangle_spans(points: Floats, triangles: Integers, shape: tuple[int, int]) 
     triangle = np.repeat(np.arange(len(triangles)), rows)
     row = np.arange(len(triangle)) + np.repeat(first + rows - np.cumsum(rows), rows)
 
+    # Three edges a triangle: upper, lower, and the long one on the other side of both.
+    x0, y0 = x[:, [0, 1, 0]], y[:, [0, 1, 0]]
+    drop = y[:, [1, 2, 2]] - y0
+    slope = np.divide(x[:, [1, 2, 2]] - x0, drop, out=np.zeros_like(drop), where=drop > _TOLERANCE)
     level = np.clip(row, top[triangle], bottom[triangle])
-    lower = (level >= middle[triangle]).astype(np.intp)  # Its short edge is the lower one.
-    cuts = np.empty((2, len(triangle)))
-    for cut, upper, end in ((cuts[0], 0 * lower, 2), (cuts[1], lower, lower + 1)):
-        x0, y0, x1, y1 = x[triangle, upper], y[triangle, upper], x[triangle, end], y[triangle, end]
-        slope = np.divide(x1 - x0, y1 - y0, out=np.zeros_like(cut), where=y1 > y0)
-        cut[:] = x0 + (level - y0) * slope
-    left = np.maximum(np.ceil(cuts.min(axis=0) - _TOLERANCE), 0).astype(np.intp)
-    right = np.minimum(np.floor(cuts.max(axis=0) + _TOLERANCE), width - 1).astype(np.intp)
+    short = 3 * triangle + (level >= middle[triangle] - _TOLERANCE)
+    cuts = [
+        x0.take(edge) + np.maximum(level - y0.take(edge), 0) * slope.take(edge)
+        for edge in (short, 3 * triangle + 2)
+    ]
+    left = np.maximum(np.ceil(np.minimum(*cuts) - _TOLERANCE), 0).astype(np.intp)
+    right = np.minimum(np.floor(np.maximum(*cuts) + _TOLERANCE), width - 1).astype(np.intp)
 
     start, end = row * width + left, row * width + right + 1
-    order = np.lexsort((triangle, start))
+    order = np.argsort(start, kind="stable")
     triangle, start, end = triangle[order], start[order], end[order]
     start[1:] = np.maximum(start[1:], np.maximum.accumulate(end)[:-1])
     kept = start < end

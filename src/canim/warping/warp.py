@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import reprlib
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -34,6 +34,11 @@ _BITS = 13
 _ONE = 1 << _BITS
 _LANE = 21
 _HALVES = (1 | 1 << _LANE | 1 << 2 * _LANE) << (_BITS - 1)
+
+# Places in byte images have 18 bits for the fraction and 13 for the pixel. A step that is wrong by
+# half a unit makes a mistake of at most 2⁻¹¹ pixels within a piece of a span.
+_FINE = 18
+_PIECE = 256
 
 
 def warp_forward(
@@ -233,7 +238,7 @@ def bilinear_planes(image: Image) -> list[Image]:
     multiplication weighs all three.
     """
     channels = list(np.moveaxis(image.reshape(*image.shape[:2], -1), 2, 0))
-    if image.dtype == np.uint8 and len(channels) > 1:
+    if _bytewise(image) and len(channels) > 1:
         return [_plane(channels[:3]), *(_plane([channel]) for channel in channels[3:])]
     return [_plane([channel]) for channel in channels]
 
@@ -248,21 +253,20 @@ def blend_warped(
 ) -> Image:
     """Warp images given as planes, add each times its share, round once; paint `ground`."""
     shape = ground.shape[0], ground.shape[1]
-    stride = shape[1] + 2
-    bytewise = ground.dtype == np.uint8
-    weights, unit, start = (_byte_weights, _ONE, _HALVES) if bytewise else (_real_weights, 1, 0)
+    bytewise = _bytewise(ground)
     spans = triangle_spans(target, triangles, shape)
-    tracks = [_track(spans, target, source, triangles, shape, 1, unit) for source in sources]
+    if bytewise:
+        spans = _pieces(spans)
+    tracks = []
+    for source in sources:
+        first, step = _track(spans, target, source, triangles, shape)
+        # From here on the rim is part of the image: its first pixel is (0, 0).
+        track = _Track(first + 1, step)
+        tracks.append(_packed(track) if bytewise else track)
+    blend = _blend_bytes if bytewise else _blend_reals
     flat = _rows(ground)
-    for block in _blocks(spans):
-        sums = [np.full(block.size, start, np.int64 if bytewise else float) for _ in images[0]]
-        for planes, track, share in zip(images, tracks, shares):
-            place, four = weights(_along(track, block), share, stride)
-            for step, weight in zip((0, 1, stride - 1, 1), four):
-                place += step
-                for total, plane in zip(sums, planes):
-                    total += plane.take(place) * weight
-        flat[block.pixels] = _colours(sums, flat.shape[1], ground.dtype)
+    for block, sums in blend(images, tracks, shares, _blocks(spans), shape[1] + 2):
+        flat[block.pixels] = _colours(sums, flat.shape[1], ground.dtype, bytewise)
     return ground
 
 
@@ -304,10 +308,13 @@ def warn_of_folds(poses: Floats, triangles: Integers, stacklevel: int) -> None:
 
 
 class _Track(NamedTuple):
-    """Where the pixels of each span come from, or go to: the first one's place and the step."""
+    """Where the pixels of each span come from, or go to: the first one's place and the step.
 
-    first: Floats  # (2, spans)
-    step: Floats
+    Both have the shape (2, spans), or (spans,) where x and y are packed into one integer.
+    """
+
+    first: NDArray[Any]
+    step: NDArray[Any]
 
 
 def _track(
@@ -316,10 +323,7 @@ def _track(
     there: Floats,
     triangles: Integers,
     shape: tuple[int, int],
-    origin: int = 0,
-    unit: int = 1,
 ) -> _Track:
-    """Follow the spans; `origin` is added to the places, which are then in units of 1/`unit`."""
     y, x = np.divmod(spans.start, shape[1])
     maps = affine_maps(here, there, triangles)[:, :2].transpose(1, 2, 0)[:, :, spans.triangle]
     first = maps[:, 0] * x + maps[:, 1] * y + maps[:, 2]
@@ -328,7 +332,7 @@ def _track(
     limit = np.array(shape[::-1])[:, None] - 0.5
     first, last = first.clip(-0.5, limit), last.clip(-0.5, limit)
     step = (last - first) / np.maximum(spans.length - 1, 1)
-    return _Track((first + origin) * unit, step * unit)
+    return _Track(first, step)
 
 
 class _Block(NamedTuple):
@@ -346,7 +350,7 @@ def _blocks(spans: Spans) -> Iterator[_Block]:
     ends = np.cumsum(spans.length)
     cuts = np.searchsorted(ends, np.arange(_BLOCK, spans.length.sum(), _BLOCK)) + 1
     edges = np.unique([0, *cuts, len(ends)]).tolist()
-    for part in map(slice, edges[:-1], edges[1:]):
+    for part in map(slice, edges, edges[1:]):
         start, length = spans.start[part], spans.length[part]
         before = ends[part] - length
         before -= before[0]
@@ -357,12 +361,36 @@ def _blocks(spans: Spans) -> Iterator[_Block]:
         yield _Block(part, length, before, count, pixels)
 
 
-def _along(track: _Track, block: _Block) -> Floats:
-    """Return the places (2, pixels) of the pixels of a block."""
-    step, first = track.step[:, block.part], track.first[:, block.part]
-    places = np.repeat(step, block.length, axis=1)
-    places *= np.arange(float(block.size))
-    places += np.repeat(first - step * block.before, block.length, axis=1)
+def _bytewise(image: Image) -> bool:
+    """Tell whether an image is one of bytes, and not too large for packed places."""
+    return image.dtype == np.uint8 and max(image.shape[:2]) + 2 <= 1 << (31 - _FINE)
+
+
+def _pieces(spans: Spans) -> Spans:
+    """Cut long spans into pieces."""
+    count = -(-spans.length // _PIECE)
+    done = _PIECE * (np.arange(count.sum()) - np.repeat(np.cumsum(count) - count, count))
+    triangle, start, length = (np.repeat(part, count) for part in spans)
+    return Spans(triangle, start + done, np.minimum(length - done, _PIECE))
+
+
+def _packed(track: _Track) -> _Track:
+    """Pack the x and y of places into the halves of one integer, in units of 2⁻¹⁸.
+
+    A step along a span is then one addition for both. A negative x borrows from y, and the next
+    addition pays it back; the places themselves are never negative.
+    """
+    first, step = (np.rint(part * 2**_FINE).astype(np.int64) for part in track)
+    first += 1 << (_FINE - _BITS - 1)  # Places are cut to 13 bits later; now that rounds them.
+    return _Track((first[1] << 32) + first[0], (step[1] << 32) + step[0])
+
+
+def _along(track: _Track, block: _Block) -> NDArray[Any]:
+    """Return the places of the pixels of a block, (2, pixels) or packed (pixels,)."""
+    step, first = track.step[..., block.part], track.first[..., block.part]
+    places = np.repeat(step, block.length, axis=-1)
+    places *= np.arange(block.size, dtype=places.dtype)
+    places += np.repeat(first - step * block.before, block.length, axis=-1)
     return places
 
 
@@ -371,44 +399,89 @@ def _nearest(places: Floats) -> Integers:
     return np.floor(places + (0.5 + 1e-9)).astype(np.intp)
 
 
-def _byte_weights(places: Floats, share: float, stride: int) -> tuple[Integers, list[Image]]:
-    """Return the first of the four pixels around each place, and whole weights of all four.
+def _blend_bytes(
+    images: Sequence[list[Image]],
+    tracks: Sequence[_Track],
+    shares: Sequence[float],
+    blocks: Iterable[_Block],
+    stride: int,
+) -> Iterator[tuple[_Block, list[Image]]]:
+    """Yield the sums of each block: whole weights, in units of 2⁻¹³, times packed colours.
 
-    Places and weights are in units of 2⁻¹³. The weights add up to the share; none is negative.
+    All blocks are worked out in the same few arrays: to ask for new ones takes longer than to
+    fill them.
     """
-    x, y = places.astype(np.int64)
-    corner = (y >> _BITS) * stride
-    corner += x >> _BITS
-    x &= _ONE - 1
-    y &= _ONE - 1
-    both = x * y
-    both >>= _BITS
-    x -= both
-    y -= both
-    whole = round(share * _ONE)
-    if whole < _ONE:
-        for weight in (x, y, both):
-            weight *= whole
-            weight >>= _BITS
-    rest = whole - x
-    rest -= y
-    rest -= both
-    return corner.astype(np.intp, copy=False), [rest, x, y, both]
+    most = _BLOCK + _PIECE
+    arrays = np.empty((4 + len(images[0]), most), dtype=np.int64)
+    corners = np.empty(most, dtype=np.intp)
+    colours = [np.empty(most, dtype=plane.dtype) for plane in images[0]]
+    for block in blocks:
+        y, both, rest, product, *sums = arrays[:, : block.size]
+        corner = corners[: block.size]
+        for total in sums:
+            total[:] = _HALVES
+        for planes, track, share in zip(images, tracks, shares):
+            x = _along(track, block)
+            np.right_shift(x, 32 + _FINE - _BITS, out=y)
+            x &= 2**32 - 1
+            x >>= _FINE - _BITS
+            np.right_shift(y, _BITS, out=corner, casting="same_kind")
+            corner *= stride
+            corner += x >> _BITS
+            x &= _ONE - 1
+            y &= _ONE - 1
+            np.multiply(x, y, out=both)
+            both >>= _BITS
+            x -= both
+            y -= both
+            whole = round(share * _ONE)
+            if whole < _ONE:
+                for weight in (x, y, both):
+                    weight *= whole
+                    weight >>= _BITS
+            # The four weights add up to the share, and none is negative.
+            np.subtract(whole, x, out=rest)
+            rest -= y
+            rest -= both
+            for step, weight in ((0, rest), (1, x), (stride - 1, y), (1, both)):
+                corner += step
+                for plane, colour, total in zip(planes, colours, sums):
+                    plane.take(corner, out=colour[: block.size], mode="wrap")
+                    np.multiply(colour[: block.size], weight, out=product)
+                    total += product
+        yield block, sums
 
 
-def _real_weights(places: Floats, share: float, stride: int) -> tuple[Integers, list[Image]]:
-    cell = places.astype(np.intp)
-    f, g = places - cell
-    both = f * g
-    weights = [(1 - f - g + both) * share, (f - both) * share, (g - both) * share, both * share]
-    return cell[1] * stride + cell[0], weights
+def _blend_reals(
+    images: Sequence[list[Image]],
+    tracks: Sequence[_Track],
+    shares: Sequence[float],
+    blocks: Iterable[_Block],
+    stride: int,
+) -> Iterator[tuple[_Block, list[Image]]]:
+    """Yield the sums of each block: weights times colours."""
+    for block in blocks:
+        sums: list[Image] = [np.zeros(block.size) for _ in images[0]]
+        for planes, track, share in zip(images, tracks, shares):
+            places = _along(track, block)
+            cell = places.astype(np.intp)
+            f, g = places - cell
+            both = f * g
+            corner = cell[1] * stride + cell[0]
+            weights = (1 - f - g + both, f - both, g - both, both)
+            for step, weight in zip((0, 1, stride - 1, 1), weights):
+                corner += step
+                weight *= share
+                for plane, total in zip(planes, sums):
+                    total += plane.take(corner) * weight
+        yield block, sums
 
 
-def _colours(sums: list[Image], channels: int, dtype: np.dtype[Any]) -> Image:
+def _colours(sums: list[Image], channels: int, dtype: np.dtype[Any], bytewise: bool) -> Image:
     """Return sums of planes as pixels, one a row; whole numbers rounded half up."""
     colours = np.empty((len(sums[0]), channels), dtype)
     for k in range(channels):
-        if dtype == np.uint8:
+        if bytewise:
             # What lies above the eight bits of this colour is cut off by its type.
             colours[:, k] = sums[k // 3] >> (k % 3 * _LANE + _BITS)
         else:
