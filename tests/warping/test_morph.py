@@ -79,7 +79,7 @@ def test_bytes_are_within_one_level(t, seed):
     image_a, image_b, a, b = random_pair((23, 29, 3), np.uint8, seed)
     image_a, image_b = image_a // 128 * 255, image_b // 128 * 255
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+        warnings.simplefilter("ignore", UserWarning)
         found, exact = morph(image_a, image_b, a, b, t), exact_morph(image_a, image_b, a, b, t)
     assert np.abs(found - np.floor(exact + 0.5)).max() <= 1
     assert np.abs(found - exact).max() < 0.75
@@ -253,6 +253,17 @@ def test_gif_of_photographs_is_as_good_as_that_of_pillow(tmp_path, count):
     assert decibels(frames, found) >= decibels(frames, plain_gif(frames)) - 0.5
     assert info["loop"] == 0
     assert info["duration"] == 100
+
+
+def test_gif_of_a_short_film_has_a_palette_for_each_end(tmp_path):
+    grain = photographs(2, 80)
+    frames = [
+        grain[0] // 2 * np.array([1, 2, 0], np.uint8),
+        grain[1] // 2 * np.array([1, 0, 2], np.uint8),
+    ]
+    save_gif(tmp_path / "film.gif", frames)
+    found, _ = read_gif(tmp_path / "film.gif")
+    assert decibels(frames, found) >= decibels(frames, plain_gif(frames)) - 0.5
 
 
 def test_gif_of_drawings_keeps_their_colours(tmp_path):

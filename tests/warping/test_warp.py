@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial import Delaunay
@@ -172,7 +172,7 @@ def test_bytes_are_within_one_level_and_every_pixel_is_filled(seed, height, widt
     # Black and white noise is the hardest image.
     image = random_image((height, width, 3), np.uint8, seed) // 128 * 255
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+        warnings.simplefilter("ignore", UserWarning)
         warped = warp_backward(image, source, target, triangles, fill=77)
         exact = warp_backward(image.astype(float), source, target, triangles, fill=-1e9)
     assert exact.min() > -1e-6
@@ -180,18 +180,29 @@ def test_bytes_are_within_one_level_and_every_pixel_is_filled(seed, height, widt
     assert np.abs(warped - np.floor(exact + 0.5)).max() <= 1
 
 
+@example(np.zeros((3, 2)), np.array([(1, 5e-324), (0, 1), (0, 0)]))
 @given(
     arrays(float, (3, 2), elements=st.floats(-0.5, 9.4)),
     arrays(float, (3, 2), elements=st.floats(-0.5, 9.4)),
 )
 def test_thin_triangles_keep_to_the_range_of_the_image(source, target):
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+        warnings.simplefilter("ignore", UserWarning)
         for image in (np.full((10, 10, 3), 200, dtype=np.uint8), np.full((10, 10), 200.0)):
             warped = warp_backward(image, source, target, [(0, 1, 2)], fill=200)
             np.testing.assert_allclose(warped, 200, rtol=1e-12)
             warp_forward(image, source, target, [(0, 1, 2)])
             warp_backward(image, source, target, [(0, 1, 2)], "nearest")
+
+
+def test_a_pixel_just_outside_a_thin_triangle_does_not_read_beyond_the_image():
+    image = np.repeat(np.arange(10, dtype=np.uint8)[:, None] * 20, 10, axis=1)
+    source = [(0, 0), (9, 0), (9, 9)]
+    target = [(0, 5e-10), (9, 5e-10), (9, 9e-10)]
+    for pixels in (image, image / 255):
+        for interpolation in ("bilinear", "nearest"):
+            warped = warp_backward(pixels, source, target, [(0, 1, 2)], interpolation, fill=0)
+            assert (warped == 0).all()
 
 
 def test_fill_is_the_colour_outside_all_triangles():
@@ -273,7 +284,7 @@ def test_forward_is_the_loop(dtype, channels):
         place = math.floor(y + 0.5), math.floor(x + 0.5)
         expected[place], filled[place] = image[v, u], True
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+        warnings.simplefilter("ignore", UserWarning)
         found = warp_forward(image, source, target, triangles)
     assert found[0].dtype == dtype
     assert np.array_equal(found[0], expected)
@@ -298,9 +309,11 @@ def test_a_pixel_that_lands_outside_is_left_out():
     target = [(-0.5, -0.5), (4.5, -0.5), (-0.5, 4.5), (4.5, 4.5)]
     source = [(0, 0), (4, 0), (0, 4), (4, 4)]
     warped, filled = warp_forward(image, source, target, [(0, 1, 2), (1, 3, 2)])
-    # x = 4 goes to 4.5, which is rounded to 5, beyond the last column.
-    assert warped[0, 0] == image[0, 0]
-    assert warped[4, 4] != image[4, 4] or not filled[4, 4]
+    # x = 4 goes to 4.5, which is rounded to 5, beyond the last column; so it is with y.
+    kept = np.zeros((5, 5), dtype=bool)
+    kept[:4, :4] = True
+    assert np.array_equal(filled, kept)
+    assert np.array_equal(warped, np.where(kept, image, 0))
 
 
 # --- Folds
