@@ -23,6 +23,7 @@ LANDMARKS = {
     'role="doc-biblioentry"': 'role="listitem"',
     # A box that scrolls must be reached by keyboard.
     "<pre>": '<pre tabindex="0">',
+    '<div class="table-wrapper': '<div tabindex="0" class="table-wrapper',
 }
 
 
