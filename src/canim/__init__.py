@@ -13,10 +13,10 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from canim import checks, data, interpolation, plotting, warping
+    from canim import character, checks, data, interpolation, plotting, warping
     from canim.checks import check
 
-__all__ = ["check", "checks", "data", "interpolation", "plotting", "warping"]
+__all__ = ["character", "check", "checks", "data", "interpolation", "plotting", "warping"]
 __version__ = "0.1.0"
 
 

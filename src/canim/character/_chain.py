@@ -1,0 +1,73 @@
+"""What a chain of links is made of: its arguments, checked, and its rotations."""
+
+from __future__ import annotations
+
+from itertools import accumulate
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from canim._arguments import Floats, floats, points
+
+
+def chain(
+    angles: ArrayLike, offsets: ArrayLike, root: ArrayLike | None, dimension: int | None = None
+) -> tuple[Floats, Floats, Floats]:
+    """Return angles (N,) or (N, 3), offsets (N, d) and root (d,) that fit each other."""
+    offsets = links(offsets, dimension)
+    count, dimension = offsets.shape
+    shape = (count,) if dimension == 2 else (count, 3)
+    angles = floats(angles, "angles")
+    if angles.shape != shape:
+        each = "one angle" if dimension == 2 else "three angles"
+        raise ValueError(
+            f"angles must hold {each} for each of the {count} links in offsets, "
+            f"shape {shape}, but has shape {angles.shape}."
+        )
+    return angles, offsets, place(np.zeros(dimension) if root is None else root, "root", dimension)
+
+
+def links(value: ArrayLike, dimension: int | None = None) -> Floats:
+    """Return `value` as offsets (N, d) of one or more links, each of some length."""
+    offsets = points(value, "offsets", 0)
+    if offsets.shape[1] not in ((2, 3) if dimension is None else (dimension,)):
+        wanted = "(N, 2) or (N, 3)" if dimension is None else f"(N, {dimension})"
+        raise ValueError(
+            f"offsets must hold one link a row, shape {wanted}, but has shape {offsets.shape}."
+        )
+    if len(offsets) == 0:
+        raise ValueError("offsets needs 1 or more links, but has 0.")
+    short = np.flatnonzero(~offsets.any(axis=1))
+    if short.size:
+        raise ValueError(f"offsets[{short[0]}] has the length 0; every link needs a length.")
+    return offsets
+
+
+def place(value: ArrayLike, name: str, dimension: int) -> Floats:
+    """Return `value` as one point of the chain's plane or space."""
+    point = floats(value, name)
+    if point.shape != (dimension,):
+        raise ValueError(
+            f"{name} must be one point of {dimension} numbers, but has shape {point.shape}."
+        )
+    return point
+
+
+def accumulated_rotations(angles: Floats) -> Floats:
+    """Return for every link the rotation of all joints up to its own, (N, d, d)."""
+    if angles.ndim == 2:
+        return np.array(list(accumulate(rotations(angles), np.matmul)))
+    total = np.cumsum(angles)
+    c, s = np.cos(total), np.sin(total)
+    return np.stack([c, -s, s, c], axis=-1).reshape(-1, 2, 2)
+
+
+def rotations(angles: Floats) -> Floats:
+    """Return Rx·Ry·Rz of every row of angles, (N, 3, 3)."""
+    (a, b, c), (sa, sb, sc) = np.cos(angles.T), np.sin(angles.T)
+    rows = [
+        *(b * c, -b * sc, sb),
+        *(a * sc + sa * sb * c, a * c - sa * sb * sc, -sa * b),
+        *(sa * sc - a * sb * c, sa * c + a * sb * sc, a * b),
+    ]
+    return np.stack(rows, axis=-1).reshape(-1, 3, 3)
