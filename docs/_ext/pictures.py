@@ -3,12 +3,15 @@
 `scrape` and `reset` are called by sphinx-gallery while it runs a script. Above each
 figure the script has a comment `# Picture: what is to be seen` (for an animation
 `# Film: …`), which becomes the alternative text; the directives `picture` and `film`
-warn where it is missing. What a check reports is shown in its place, above the figures.
+warn where it is missing. Below `# GIF: …` the script saves a file, which is shown as well.
+What a check reports is shown in its place, above the figures.
 """
 
 from __future__ import annotations
 
+import io
 import re
+import shutil
 import textwrap
 from collections import deque
 from html import escape
@@ -24,14 +27,17 @@ from sphinx.util.docutils import SphinxDirective
 logger = logging.getLogger(__name__)
 
 CSS_DPI = 100  # a figure of 6.4 inches is 640 pixels wide on the page
+PAGE_SCALE = 1.15  # a picture as wide as the text is shown a little larger
 SHARP = 2  # pixels of the file per pixel of the page
 THUMB_WIDTH = 480
+WEBP_QUALITY = 90
 # One thread and no dates: the same film has the same bytes.
 FILM = (
     "-threads 1 -fflags +bitexact -flags:v +bitexact -map_metadata -1"
     " -crf 24 -preset slow -movflags +faststart"
 )
-COMMENT = re.compile(r"^# (Picture|Film): (.*\n(?:#(?! Picture:| Film:).*\n)*)", re.M)
+COMMENT = re.compile(r"^# (Picture|Film|GIF): (.*\n(?:#(?! Picture:| Film:| GIF:).*\n)*)", re.M)
+GIF_FILE = re.compile(r"[\"'](\S+\.gif)[\"']")
 
 _reports = []
 
@@ -48,8 +54,9 @@ def scrape(block, block_vars, gallery_conf):
     """Save the figures that a block has made; return the rst that shows them."""
     import matplotlib.pyplot as plt
     from matplotlib.animation import Animation
+    from PIL import Image
 
-    texts = {"Picture": deque(), "Film": deque()}
+    texts = {"Picture": deque(), "Film": deque(), "GIF": deque()}
     for kind, text in COMMENT.findall(block.content + "\n"):
         texts[kind].append(" ".join(re.sub(r"^# ?", "", text, flags=re.M).split()))
     variables = block_vars["example_globals"].values()
@@ -62,52 +69,85 @@ def scrape(block, block_vars, gallery_conf):
         figure = plt.figure(number)
         kind = "Film" if figure in films else "Picture"
         if kind == "Film":
-            _save_film(films[figure], path)
+            image = _save_film(films[figure], path.with_suffix(".mp4"))
         else:
-            _save_picture(figure, path)
+            image = _drawn(figure)
+        if _is_photograph(image):
+            path = path.with_suffix(".webp")
+        _save(image, path)
         if path.stem.endswith("_001"):
-            _save_thumb(path)
+            _save_thumb(image, path)
         alt = texts[kind].popleft() if texts[kind] else ""
-        address = "/" + path.relative_to(gallery_conf["src_dir"]).as_posix()
-        width, height = (round(inches * CSS_DPI) for inches in figure.get_size_inches())
-        rst.append(
-            f".. {kind.lower()}:: {address}\n   :alt: {alt}\n"
-            f"   :width: {width}\n   :height: {height}\n"
-        )
+        size = (round(inches * CSS_DPI) for inches in figure.get_size_inches())
+        rst.append(_shown(kind, path, alt, size, gallery_conf))
     plt.close("all")
+    for name in GIF_FILE.findall(block.content) if texts["GIF"] else ():
+        path = Path(next(block_vars["image_path_iterator"])).with_suffix(".gif")
+        shutil.move(name, path)
+        with Image.open(path) as image:
+            rst.append(_shown("GIF", path, texts["GIF"].popleft(), image.size, gallery_conf))
     rst += [f".. {kind.lower()}::\n   :alt: {text}\n" for kind in texts for text in texts[kind]]
     return "\n\n".join(rst)
+
+
+def _shown(kind, path, alt, size, gallery_conf):
+    address = "/" + path.relative_to(gallery_conf["src_dir"]).as_posix()
+    width, height = size
+    return (
+        f".. {kind.lower()}:: {address}\n   :alt: {alt}\n   :width: {width}\n   :height: {height}\n"
+    )
 
 
 def _report(report):
     return ".. raw:: html\n\n" + textwrap.indent(report._repr_html_(), "   ")
 
 
-def _save_picture(figure, path):
-    figure.savefig(path, dpi=SHARP * CSS_DPI, metadata={"Software": None})
-    _save_small(path, path)
+def _drawn(figure):
+    from PIL import Image
+
+    file = io.BytesIO()
+    figure.savefig(file, format="png", dpi=SHARP * CSS_DPI)
+    return Image.open(file).convert("RGB")
 
 
-def _save_thumb(picture):
-    folder = picture.parent / "thumb"
+def _save_thumb(image, path):
+    from PIL import Image
+
+    folder = path.parent / "thumb"
     folder.mkdir(exist_ok=True)
-    _save_small(picture, folder / f"{picture.stem}_thumb.png", THUMB_WIDTH)
+    size = THUMB_WIDTH, round(image.height * THUMB_WIDTH / image.width)
+    _save(image.resize(size, Image.Resampling.LANCZOS), folder / f"{path.stem}_thumb{path.suffix}")
 
 
-def _save_small(source, target, width=None):
-    """Save a PNG with a palette where the eye cannot tell, as it cannot in line plots."""
-    from PIL import Image, ImageChops
+def _is_photograph(image):
+    """Tell whether WebP is nearer to a picture than 256 colours are; in line plots it is not."""
+    from PIL import Image
 
-    with Image.open(source) as image:
-        image = image.convert("RGB")
-    if width:
-        image = image.resize((width, round(image.height * width / image.width)), Image.LANCZOS)
+    file = io.BytesIO()
+    image.save(file, "WEBP", quality=WEBP_QUALITY)
+    with Image.open(file) as webp:
+        return _error(image, webp) < _error(image, _with_palette(image))
+
+
+def _error(image, other):
+    from PIL import ImageChops, ImageStat
+
+    return sum(ImageStat.Stat(ImageChops.difference(image, other.convert("RGB"))).sum2)
+
+
+def _save(image, path):
+    if path.suffix == ".webp":
+        image.save(path, quality=WEBP_QUALITY)
+    else:
+        _with_palette(image).save(path, optimize=True)
+
+
+def _with_palette(image):
+    from PIL import Image
+
     small = image.quantize(256, Image.Quantize.MAXCOVERAGE)
     _keep_ground(image, small)
-    error = ImageChops.difference(image, small.convert("RGB")).convert("L")
-    if sum(error.histogram()[12:]) < 0.001 * image.width * image.height:
-        image = small
-    image.save(target, optimize=True)
+    return small
 
 
 def _keep_ground(image, small):
@@ -119,8 +159,8 @@ def _keep_ground(image, small):
     small.putpalette(palette)
 
 
-def _save_film(animation, poster):
-    """Save the animation as mp4, always with the same bytes, and its middle as a picture."""
+def _save_film(animation, path):
+    """Save the animation as mp4, always with the same bytes; return a picture of its middle."""
     from matplotlib.animation import AbstractMovieWriter
 
     class Writer(AbstractMovieWriter):
@@ -144,7 +184,7 @@ def _save_film(animation, poster):
         def grab_frame(self, **options):
             self.film.send(self.fig.canvas.buffer_rgba())
             if self.frames_left == 0:
-                _save_picture(self.fig, poster)
+                self.middle = _drawn(self.fig)
             self.frames_left -= 1
 
         def finish(self):
@@ -155,7 +195,8 @@ def _save_film(animation, poster):
     figure.draw_without_rendering()
     figure.set_layout_engine("none")
     writer = Writer(fps=round(1000 / animation._interval))
-    animation.save(poster.with_suffix(".mp4"), writer=writer, dpi=1.5 * CSS_DPI)
+    animation.save(path, writer=writer, dpi=1.5 * CSS_DPI)
+    return writer.middle
 
 
 class picture(nodes.image):
@@ -164,6 +205,10 @@ class picture(nodes.image):
 
 class film(nodes.image):
     """A film; its only child is the picture shown before it plays."""
+
+
+class gif(nodes.image):
+    """A picture that moves by itself; it waits until the reader opens it."""
 
 
 class Picture(SphinxDirective):
@@ -193,7 +238,13 @@ class Picture(SphinxDirective):
         logger.warning(message, location=self.get_location(), type="pictures")
 
     def make(self, uri, alt, size):
-        return picture(uri=uri, alt=alt, **size)
+        return self.node(uri=uri, alt=alt, **size)
+
+
+class Gif(Picture):
+    """`.. gif:: /path.gif`."""
+
+    node = gif
 
 
 class Film(Picture):
@@ -203,7 +254,7 @@ class Film(Picture):
 
     def make(self, uri, alt, size):
         still = picture(uri=uri, alt="", **size)
-        return film("", still, uri=re.sub(r"\.png$", ".mp4", uri), alt=alt, **size)
+        return film("", still, uri=re.sub(r"\.\w+$", ".mp4", uri), alt=alt, **size)
 
 
 def _address(writer, node):
@@ -228,9 +279,11 @@ def visit_picture(self, node):
 
 def visit_film(self, node):
     source, text = _address(self, node), escape(node["alt"])
+    # A narrow film that filled the page would be higher than a screen.
+    widest = f' style="max-width: {round(PAGE_SCALE * node["width"])}px"'
     self.body.append(
         f'<figure class="film"><video controls muted playsinline preload="none"'
-        f' poster="{_address(self, node[0])}"{_size(node)} aria-label="Film: {text}">'
+        f' poster="{_address(self, node[0])}"{_size(node)}{widest} aria-label="Film: {text}">'
         f'<source src="{source}" type="video/mp4">'
         f'<a href="{source}">Download the film</a></video>'
         f"<figcaption>Film: {text}</figcaption></figure>\n"
@@ -238,9 +291,21 @@ def visit_film(self, node):
     raise nodes.SkipNode
 
 
+def visit_gif(self, node):
+    # In closed details a lazy picture is not loaded.
+    self.body.append(
+        '<details class="fold"><summary>Play the GIF</summary>\n'
+        f'<div class="picture"><img src="{_address(self, node)}" alt="{escape(node["alt"])}"'
+        f'{_size(node)} loading="lazy"></div></details>\n'
+    )
+    raise nodes.SkipNode
+
+
 def setup(app):
     app.add_node(picture, html=(visit_picture, None))
+    app.add_node(gif, html=(visit_gif, None))
     app.add_node(film, html=(visit_film, None))
     app.add_directive("picture", Picture)
+    app.add_directive("gif", Gif)
     app.add_directive("film", Film)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

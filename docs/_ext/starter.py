@@ -197,7 +197,7 @@ def notebook(page: Page, of: Release) -> str:
 
 def clean(code: str) -> str:
     """Return `code` without what is meant for the site: picture texts and linter marks."""
-    code = re.sub(r"^# (?:Picture|Film): .*\n(?:#.*\n)*", "", code, flags=re.M)
+    code = re.sub(r"^# (?:Picture|Film|GIF): .*\n(?:#.*\n)*", "", code, flags=re.M)
     return re.sub(r"  # noqa.*$", "", code, flags=re.M).strip("\n")
 
 

@@ -16,7 +16,7 @@ from canim.checks import BLOCKS, TASKS
 logger = logging.getLogger(__name__)
 
 FIRST_PICTURE = re.compile(
-    r"^\.\. (?:picture|film):: (\S+)/(\S+)\.png\n"
+    r"^\.\. (?:picture|film):: (\S+)/(\S+)(\.\w+)\n"
     r" +:alt: (.*)\n +:width: (\d+)\n +:height: (\d+)",
     re.M,
 )
@@ -54,9 +54,9 @@ class TaskCards(SphinxDirective):
         if not found:
             self.warn(f"the page of task {task.id} has no picture")
             return []
-        folder, name, alt, width, height = found.groups()
+        folder, name, suffix, alt, width, height = found.groups()
         size = {"width": THUMB_SHOWN, "height": round(int(height) * THUMB_SHOWN / int(width))}
-        thumb = f"{folder}/thumb/{name}_thumb.png"
+        thumb = f"{folder}/thumb/{name}_thumb{suffix}"
         return [picture(uri=thumb, alt=f"Expected result: {alt}", **size)]
 
     def warn(self, message):

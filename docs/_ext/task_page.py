@@ -16,7 +16,7 @@ GALLERY_NOTE = re.compile(r"^\.\. only:: html\n\n    \.\. note::\n(?: .*\n|\n)+"
 GALLERY_FOOTER = re.compile(r"^\.\. _sphx_glr_download_[\s\S]*\Z", re.M)
 GALLERY_THUMBNAILS = re.compile(r"^\.\. raw:: html\n\n  <div id='sg-tag-list'[\s\S]*?"
                                 r"(?=^\.\. toctree::|\Z)", re.M)  # fmt: skip
-FOR_THE_SITE = re.compile(r"^# (?:Picture|Film): .*\n(?:#.*\n)*|  # noqa.*$", re.M)
+FOR_THE_SITE = re.compile(r"^# (?:Picture|Film|GIF): .*\n(?:#.*\n)*|  # noqa.*$", re.M)
 PAGES = {task.page: task for task in TASKS.values()}
 
 
@@ -85,7 +85,8 @@ def _fold_code(page):
 
 def _how_drawn(code):
     shown = [type(node).__name__ for node in code.parent[code.parent.index(code) + 1 :]]
-    return f"How this {'film' if shown[:1] == ['film'] else 'picture'} is drawn"
+    kind = {"film": "film", "gif": "GIF"}.get("".join(shown[:1]), "picture")
+    return f"How this {kind} is drawn"
 
 
 def _put_behind(summary, code):

@@ -35,7 +35,7 @@ from canim import warping
 # Picture: Five images in a row. The first is a green triangle, the last an orange triangle of
 # another shape. In between the triangle moves, turns and changes its colour little by little;
 # thin lines, the mesh of triangles, move with it.
-fig, axes = plt.subplots(1, 5, num="Expected result", figsize=(6.4, 1.9))
+fig, axes = plt.subplots(1, 5, num="Expected result", figsize=(6.4, 1.6))
 for ax, t in zip(axes, np.linspace(0, 1, 5)):
     moment = warping.morph(image_a, image_b, points_a, points_b, t, triangles)
     draw_triangulation(ax, moment, (1 - t) * points_a + t * points_b, triangles)
@@ -53,12 +53,21 @@ fig, ax = plt.subplots(figsize=(4, 4))
 toy_film = canim.plotting.animate_morph(ax, frames, poses, triangles)
 
 # %%
+# Your program will save its film as a file, ``morph.gif``, which every browser can show:
+
+moments = np.linspace(0, 1, 21)
+frames = [warping.morph(image_a, image_b, points_a, points_b, t, triangles) for t in moments]
+# GIF: The green triangle turns into the orange one, without the mesh, in even steps. Then it
+# starts again.
+warping.save_gif("morph.gif", frames, fps=10)
+
+# %%
 # The same program, with two portraits and 48 key points: Eileen Collins, the first woman who
 # commanded a space shuttle, turns into Grace Hopper, who built one of the first compilers.
 
 face_a, face_b, keys_a, keys_b = canim.data.portraits()
 faces = [warping.morph(face_a, face_b, keys_a, keys_b, t) for t in times]
-fig, ax = plt.subplots(figsize=(2.8, 3))
+fig, ax = plt.subplots(figsize=(3.6, 4))
 # Film: The face of Eileen Collins, with short brown hair, turns into that of Grace Hopper, with
 # glasses and the cap of a navy uniform. Eyes, nose and mouth stay sharp all the time, they move
 # from one face to the other.
@@ -78,10 +87,8 @@ face_film = canim.plotting.animate_morph(ax, faces)
 fig, axes = plt.subplots(2, 5, figsize=(6.4, 3.1))
 for column, t in zip(axes.T, np.linspace(0, 1, 5)):
     fade = np.round((1 - t) * face_a + t * face_b).astype(np.uint8)
-    column[0].imshow(
-        warping.morph(face_a, face_b, keys_a, keys_b, t)[1::3, 1::3], interpolation="nearest"
-    )
-    column[1].imshow(fade[1::3, 1::3], interpolation="nearest")
+    column[0].imshow(warping.morph(face_a, face_b, keys_a, keys_b, t))
+    column[1].imshow(fade)
     column[0].set_title(f"t = {t:.2f}", fontsize=11)
     for ax in column:
         ax.set_axis_off()
@@ -182,7 +189,7 @@ frames = [morph(image_a, image_b, points_a, points_b, triangles, t) for t in mom
 canim.warping.save_gif("morph.gif", frames, fps=10)
 
 # Picture: Five images in a row. Nothing is written yet: all five are loud pink squares.
-fig, axes = plt.subplots(1, 5, num="Yours", figsize=(6.4, 1.9))
+fig, axes = plt.subplots(1, 5, num="Yours", figsize=(6.4, 1.6))
 for ax, frame, t in zip(axes, frames[::5], moments[::5]):
     draw_triangulation(ax, frame, points_between(points_a, points_b, t), triangles)
     ax.set_title(f"t = {t:.2f}")

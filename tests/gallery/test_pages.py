@@ -38,7 +38,7 @@ def test_a_starter_is_short_and_says_what_to_write(task, root):
     assert 30 <= sum(bool(line.strip()) for line in text.splitlines()) <= 60
     assert max(map(len, text.splitlines())) <= 100
     assert "# TODO" in text
-    assert not any(mark in text for mark in ("# %%", "Picture:", "Film:", "noqa"))
+    assert not any(mark in text for mark in ("# %%", "Picture:", "Film:", "GIF:", "noqa"))
     assert text.endswith("plt.show()\n")
     defined = {name for node in ast.parse(text).body for name in solutions._names(node)}
     assert set(task.names) <= defined | {"f"}

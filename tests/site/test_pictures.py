@@ -1,5 +1,6 @@
 """What the gallery's scripts draw reaches the page: in order, with its text, always the same."""
 
+from pathlib import Path
 from types import SimpleNamespace
 
 import matplotlib.pyplot as plt
@@ -7,8 +8,9 @@ import numpy as np
 import pictures
 import pytest
 from matplotlib.animation import FuncAnimation
-from PIL import Image
+from PIL import Image, ImageChops
 
+import canim
 from canim import checks
 
 
@@ -91,6 +93,23 @@ def test_text_without_figure_is_passed_on(scrape):
     assert scrape("# Picture: nothing.\n") == ".. picture::\n   :alt: nothing.\n"
 
 
+def test_gif_that_a_block_saves_is_shown(scrape, tmp_path, monkeypatch):
+    (tmp_path / "work").mkdir()
+    monkeypatch.chdir(tmp_path / "work")
+    canim.warping.save_gif("dark.gif", np.zeros((2, 30, 40, 3), np.uint8))
+    plt.figure()
+    rst = scrape('# Picture: a square.\n# GIF: all dark.\nsave_gif("dark.gif", frames)\n')
+    assert rst.endswith(
+        ".. gif:: /page_002.gif\n   :alt: all dark.\n   :width: 40\n   :height: 30\n"
+    )
+    assert (tmp_path / "page_002.gif").exists()
+    assert not list(Path().iterdir())
+
+
+def test_gif_without_text_is_not_shown(scrape):
+    assert scrape('save_gif("mine.gif", frames)\n') == ""
+
+
 def test_same_film_has_the_same_bytes(scrape, tmp_path):
     files = []
     for _ in range(2):
@@ -100,21 +119,48 @@ def test_same_film_has_the_same_bytes(scrape, tmp_path):
     assert files[0] == files[1]
 
 
-def test_photograph_keeps_its_colours(tmp_path):
-    noise = np.random.default_rng(1).integers(0, 256, (60, 80, 3), dtype=np.uint8)
-    Image.fromarray(noise).save(tmp_path / "noise.png")
-    pictures._save_small(tmp_path / "noise.png", tmp_path / "small.png")
-    with Image.open(tmp_path / "small.png") as image:
-        assert np.array_equal(np.asarray(image), noise)
+def test_photograph_has_many_colours(scrape, tmp_path):
+    face = canim.data.portraits()[0]
+
+    def draw():
+        figure, ax = plt.subplots(figsize=(2, 2))
+        ax.imshow(face)
+        return figure
+
+    figure = draw()
+    film = FuncAnimation(figure, lambda i: [], frames=3, interval=40)
+    draw()
+    code = "# Film: a face that stays.\n# Picture: the same face.\n"
+    rst = scrape(code, film=film)
+    assert [line for line in rst.splitlines() if line.startswith("..")] == [
+        ".. film:: /page_001.webp",
+        ".. picture:: /page_002.webp",
+    ]
+    with Image.open(tmp_path / "page_002.webp") as image:
+        assert image.size == (400, 400)
+        assert len(image.getcolors(400 * 400)) > 10_000
+    with Image.open(tmp_path / "thumb/page_001_thumb.webp") as image:
+        assert image.size == (480, 480)
+    assert not list(tmp_path.rglob("*.png"))
+    assert (tmp_path / "page_001.mp4").exists()
 
 
-def test_ground_keeps_its_colour(tmp_path):
+def test_nearly_flat_drawing_has_a_palette(tmp_path):
+    figure, ax = plt.subplots()
+    ax.imshow(canim.data.toy_triangles()[0])
+    image = pictures._drawn(figure)
+    assert not pictures._is_photograph(image)
+    pictures._save(image, tmp_path / "toy.png")
+    with Image.open(tmp_path / "toy.png") as small:
+        assert small.mode == "P"
+        difference = ImageChops.difference(image, small.convert("RGB"))
+    assert max(high for _, high in difference.getextrema()) <= 8
+
+
+def test_ground_keeps_its_colour():
     ground = (252, 252, 250)
     image = Image.new("RGB", (80, 60), ground)
     for x in range(40):  # more colours than a palette holds
         for y in range(30):
             image.putpixel((x, y), (5 * x, 8 * y, 3 * x + 3 * y))
-    image.save(tmp_path / "figure.png")
-    pictures._save_small(tmp_path / "figure.png", tmp_path / "small.png")
-    with Image.open(tmp_path / "small.png") as small:
-        assert small.convert("RGB").getpixel((79, 59)) == ground
+    assert pictures._with_palette(image).convert("RGB").getpixel((79, 59)) == ground
