@@ -198,12 +198,10 @@ def portraits(session):
 def bench(session):
     """Time canim against its peers and renew the table in docs/performance.md."""
     install(session, "bench")
-    # An old OpenBLAS may need these; a current one is only slowed down by them.
-    plain = {"OPENBLAS_CORETYPE": None, "OPENBLAS_L2_SIZE": None}
-    # Memory that was freed is used again, by ours and by the peers: getting new memory from
-    # the system can take longer than the work, and how long depends on the machine's mood.
-    kept = dict.fromkeys(("MALLOC_MMAP_THRESHOLD_", "MALLOC_TRIM_THRESHOLD_"), str(2**32))
-    session.run("python", "bench", *session.posargs, env=plain | kept)
+    # One thread for all: a second one, waiting for work, would count as time. An old OpenBLAS
+    # may need the others; a current one is only slowed down by them.
+    plain = {"OPENBLAS_NUM_THREADS": "1", "OPENBLAS_CORETYPE": None, "OPENBLAS_L2_SIZE": None}
+    session.run("python", "bench", *session.posargs, env=plain)
 
 
 @nox.session(default=False, requires=["docs"])
