@@ -18,6 +18,18 @@ _KINDS = {"b": "truth values", "c": "complex numbers", "S": "bytes", "U": "text"
 
 def floats(value: ArrayLike, name: str) -> Floats:
     """Return `value` as a float64 array of any shape whose numbers are all finite."""
+    array = real(value, name)
+    with np.errstate(over="ignore"):
+        array = array.astype(np.float64, copy=False)
+    if not _all_finite(array):
+        place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
+        where = f"{name}[{', '.join(map(str, place))}]" if place else name
+        raise ValueError(f"{name} must hold finite numbers, but {where} is {array[place]}.")
+    return array
+
+
+def real(value: ArrayLike, name: str) -> NDArray[Any]:
+    """Return `value` as an array of real numbers of any type and shape."""
     try:
         array = np.asarray(value)
     except ValueError as error:
@@ -27,12 +39,6 @@ def floats(value: ArrayLike, name: str) -> Floats:
     if array.dtype.kind not in "iuf":
         what = "None" if value is None else _KINDS.get(array.dtype.kind, "other objects")
         raise TypeError(f"{name} must hold real numbers, but holds {what}.")
-    with np.errstate(over="ignore"):
-        array = array.astype(np.float64, copy=False)
-    if not _all_finite(array):
-        place = tuple(int(i) for i in np.argwhere(~np.isfinite(array))[0])
-        where = f"{name}[{', '.join(map(str, place))}]" if place else name
-        raise ValueError(f"{name} must hold finite numbers, but {where} is {array[place]}.")
     return array
 
 

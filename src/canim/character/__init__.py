@@ -1,5 +1,11 @@
-"""Chains of links that turn in joints (Tasks 3.1 to 3.3)."""
+"""Chains of links that turn in joints, and faces mixed from shapes (Tasks 3.1 to 3.5)."""
 
+from canim.character.blendshapes import (
+    Face,
+    delta_blendshape,
+    global_blendshape,
+    load_expressions,
+)
 from canim.character.forward_kinematics import (
     forward_kinematics_2d,
     forward_kinematics_3d,
@@ -10,10 +16,14 @@ from canim.character.forward_kinematics import (
 )
 
 __all__ = [
+    "Face",
+    "delta_blendshape",
     "forward_kinematics_2d",
     "forward_kinematics_3d",
+    "global_blendshape",
     "jacobian_2d",
     "jacobian_3d",
     "joint_transforms",
+    "load_expressions",
     "numeric_jacobian",
 ]

@@ -1,0 +1,219 @@
+"""Faces are read from folders of OBJ files as others read them, or refused by name."""
+
+from __future__ import annotations
+
+import re
+import time
+
+import numpy as np
+import pytest
+import trimesh
+
+from canim.character import load_expressions
+
+SQUARE = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nf 1 2 3 4\n"
+RAISED = SQUARE.replace("2 2 0", "2 2 1.5e0")
+CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0)]
+TRIANGLES = [(0, 1, 2), (0, 2, 3)]
+
+
+def folder(path, **files):
+    path.mkdir(parents=True, exist_ok=True)
+    for name, text in files.items():
+        (path / f"{name}.obj").write_bytes(text.encode())
+    return path
+
+
+def test_expressions_by_the_names_of_their_files(tmp_path):
+    path = folder(
+        tmp_path, smile_left=RAISED, neutral=SQUARE, blink=SQUARE.replace("0 2 0", "0 1 0")
+    )
+    (path / "notes.txt").write_text("no mesh", encoding="utf-8")
+    (path / "._neutral.obj").write_bytes(b"\0\5\x16\7")
+    for given in (path, str(path)):
+        face = load_expressions(given)
+        assert list(face.expressions) == ["blink", "smile_left"]
+        assert face.neutral.tolist() == [list(map(float, corner)) for corner in CORNERS]
+        assert face.expressions["smile_left"][2].tolist() == [2, 2, 1.5]
+        assert face.expressions["blink"][3].tolist() == [0, 1, 0]
+        assert [tuple(corners) for corners in face.faces] == TRIANGLES
+        assert face.colors is None
+
+
+@pytest.mark.parametrize("name", ["with space", "é è ü 笑", "a#b"])
+def test_names_with_spaces_and_accents(tmp_path, name):
+    face = load_expressions(folder(tmp_path / name, neutral=SQUARE, **{name: RAISED}))
+    assert list(face.expressions) == [name]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        SQUARE.replace("\n", "\r\n"),
+        SQUARE.replace("\n", "\r"),
+        SQUARE.rstrip(),
+        "\ufeff" + SQUARE,
+        SQUARE.replace("f 1 2 3 4", "f  1\t2 3  4 "),
+        SQUARE.replace("f 1 2 3 4", "\tf 1 2 \\\n 3 4"),
+        SQUARE.replace("f 1 2 3 4", "f -4 -3 -2 -1"),
+        SQUARE.replace("f 1 2 3 4", "f 1 2 -2\nf 1 3 4"),
+        SQUARE.replace("f 1 2 3 4", "f 1/1 2/2 3/1 4/2"),
+        SQUARE.replace("f 1 2 3 4", "vn 0 0 1\nf 1//1 2//1 3//1 4//1"),
+        SQUARE.replace("f 1 2 3 4", "vt 0 0\nvt 1 0\nvn 0 0 1\nf 1/1/1 2/2/1 3/2/1 4/2/1"),
+        "# made by é\nmtllib missing.mtl\no head\ng lips\ns 1\nusemtl skin\n" + SQUARE + "l 1 2\n",
+        SQUARE.replace("\nf", " # corner\n# all corners\n\nusemtl lips\nf").replace(
+            "4\n", "4 # 4\n"
+        ),
+        SQUARE.replace("v 2 2 0", "v 2 2 0 1"),
+        SQUARE.replace("v 2 2 0", "v +2.0 2e0 -0. 1 .5 0"),
+        # A vertex that comes after the first face: what is negative counts from its line.
+        "v 0 0 0\nv 2 0 0\nv 2 2 0\nf -3 -2 -1\nv 0 2 0\nf 1 3 4\n",
+    ],
+)
+def test_the_same_mesh_in_other_words(tmp_path, text):
+    face = load_expressions(folder(tmp_path, neutral=SQUARE, other=text))
+    assert np.array_equal(face.expressions["other"], CORNERS)
+    face = load_expressions(folder(tmp_path, neutral=text))
+    assert np.array_equal(face.neutral, CORNERS)
+    assert [tuple(corners) for corners in face.faces] == TRIANGLES
+
+
+def test_bytes_that_are_no_text_in_a_comment(tmp_path):
+    path = folder(tmp_path, neutral=SQUARE, smile=RAISED)
+    (path / "neutral.obj").write_bytes(b"# Fran\xe7ois\n" + SQUARE.encode())
+    assert len(load_expressions(path).neutral) == 4
+
+
+def test_colors(tmp_path):
+    coloured = re.sub(r"(v.*)", r"\1 1 0.5 0.25", SQUARE)
+    face = load_expressions(folder(tmp_path, neutral=coloured, smile=RAISED))
+    assert np.array_equal(face.colors, [(1, 0.5, 0.25)] * 4)
+
+
+def test_as_trimesh_reads(tmp_path):
+    """Triangles, quads and pentagons, and vertices that lie on each other or in no face."""
+    rng = np.random.default_rng(7)
+    vertices = np.repeat(rng.normal(size=(40, 3)), 2, axis=0)
+    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in vertices]
+    for count in rng.integers(3, 6, 60):
+        corners = rng.choice(np.arange(1, 71), count, replace=False)
+        lines.append("f " + " ".join(map(str, corners)))
+    text = "\n".join(lines)
+    face = load_expressions(folder(tmp_path, neutral=text, same=text))
+    mesh = trimesh.load_mesh(tmp_path / "same.obj", process=False, maintain_order=True)
+    assert np.array_equal(face.neutral, mesh.vertices)
+
+    def surface(triangles):
+        normals = np.cross(
+            *(face.neutral[triangles[:, k]] - face.neutral[triangles[:, 0]] for k in (1, 2))
+        )
+        return normals.sum(axis=0)
+
+    assert len(face.faces) == len(mesh.faces)
+    np.testing.assert_allclose(surface(face.faces), surface(mesh.faces))
+
+
+def test_a_large_mesh(tmp_path):
+    count = 200_000
+    rows = [f"v {k / 7:.4f} {k % 447} 0.5" for k in range(count)]
+    rows += [f"f {k} {k + 1} {k + 448} {k + 447}" for k in range(1, count - 448, 10)]
+    text = "\n".join(rows)
+    begin = time.process_time()
+    face = load_expressions(folder(tmp_path, neutral=text, same=text))
+    assert time.process_time() - begin < 15
+    assert face.shapes.shape == (1, count, 3)
+    assert face.faces.shape == (2 * len(range(1, count - 448, 10)), 3)
+    assert face.neutral[-1].tolist() == [round((count - 1) / 7, 4), (count - 1) % 447, 0.5]
+
+
+# --- Refused
+
+
+def refuses(path, match, error=ValueError):
+    with pytest.raises(error, match=match) as caught:
+        load_expressions(path)
+    text = str(caught.value)
+    assert text[-1] == "."
+    assert "\n" not in text
+    assert caught.value.__suppress_context__ or caught.value.__context__ is None
+
+
+@pytest.mark.parametrize(
+    ("line", "by", "expected"),
+    [
+        ("v 2 0 0", "v 2 0", "v x y z"),
+        ("v 2 0 0", "v", "v x y z"),
+        ("v 2 0 0", "v 2 O 0", "v x y z"),
+        ("v 2 0 0", "v 2,0 0,0 0,0", "v x y z"),
+        ("v 2 0 0", "v 2 nan 0", "v x y z"),
+        ("v 2 0 0", "v 2 -inf 0", "v x y z"),
+        ("v 2 0 0", "v 2 0 1e999", "v x y z"),
+        ("f 1 2 3 4", "f 1 2", "f and three"),
+        ("f 1 2 3 4", "f", "f and three"),
+        ("f 1 2 3 4", "f 1 2 3 x", "f and three"),
+        ("f 1 2 3 4", "f 1 2 3.0", "f and three"),
+        ("f 1 2 3 4", "f 1 2 /3", "f and three"),
+        ("f 1 2 3 4", "f 1 2 5", "f and three or more of the vertices 1 to 4"),
+        ("f 1 2 3 4", "f 0 1 2", "f and three"),
+        ("f 1 2 3 4", "f 1 2 -5", "f and three"),
+    ],
+)
+def test_broken_lines(tmp_path, line, by, expected):
+    number = SQUARE.split("\n").index(line) + 1
+    match = (
+        rf"^folder: smile\.obj, line {number}, must be {expected}.*, but is '{re.escape(by)}'\.$"
+    )
+    refuses(folder(tmp_path, neutral=SQUARE, smile=SQUARE.replace(line, by)), match)
+
+
+@pytest.mark.parametrize(
+    ("text", "what"),
+    [
+        ("", "vertices"),
+        ("# empty\n", "vertices"),
+        ("f 1 2 3\n", "vertices"),
+        (SQUARE.partition("f")[0], "faces"),
+        ("PK\3\4\0\0", "vertices"),
+    ],
+)
+def test_files_without_a_mesh(tmp_path, text, what):
+    refuses(
+        folder(tmp_path, neutral=text, smile=RAISED),
+        rf"^folder: neutral\.obj holds no {what}",
+    )
+
+
+def test_other_topologies(tmp_path):
+    more = SQUARE.replace("f", "v 5 5 5\nf")
+    refuses(
+        folder(tmp_path / "more", neutral=SQUARE, same=RAISED, smile=more),
+        r"^folder: smile\.obj has 5 vertices and neutral\.obj 4;",
+    )
+    # Fewer vertices, though the face lines are the same.
+    refuses(
+        folder(tmp_path / "fewer", neutral=more.replace("v 2 0 0\n", "v 2 0 0\n"), smile=SQUARE),
+        r"^folder: smile\.obj has 4 vertices and neutral\.obj 5;",
+    )
+    for faces in ("f 2 3 4 1", "f 1 2 3", "f 4 3 2 1"):
+        refuses(
+            folder(tmp_path / faces, neutral=SQUARE, smile=SQUARE.replace("f 1 2 3 4", faces)),
+            r"^folder: smile\.obj and neutral\.obj have different faces;",
+        )
+
+
+def test_folders_without_faces(tmp_path):
+    refuses(folder(tmp_path), r"^folder: .* holds no neutral\.obj; it needs neutral\.obj and one")
+    refuses(folder(tmp_path, smile=RAISED), r"^folder: .* holds no neutral\.obj;")
+    refuses(folder(tmp_path / "b", neutral=SQUARE), r"holds no OBJ file beside neutral\.obj;")
+
+
+def test_folders_that_are_none(tmp_path):
+    with pytest.raises(FileNotFoundError, match="missing"):
+        load_expressions(tmp_path / "missing")
+    with pytest.raises(NotADirectoryError, match=r"neutral\.obj"):
+        load_expressions(folder(tmp_path, neutral=SQUARE) / "neutral.obj")
+    (tmp_path / "smile.obj").mkdir()
+    with pytest.raises(OSError, match=r"smile\.obj"):
+        load_expressions(tmp_path)
+    for bad in (None, 7, b"faces", ["faces"]):
+        refuses(bad, r"^folder must be the name of a folder, but is", TypeError)
