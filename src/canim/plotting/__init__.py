@@ -1,5 +1,6 @@
 """How pages and starters draw what plain matplotlib calls cannot say in one line."""
 
+from canim.plotting.chains import draw_chain
 from canim.plotting.curves import label_curves
 from canim.plotting.films import animate_construction, animate_morph, animate_points
 from canim.plotting.images import draw_points, draw_triangulation, pick_points, progress
@@ -8,6 +9,7 @@ __all__ = [
     "animate_construction",
     "animate_morph",
     "animate_points",
+    "draw_chain",
     "draw_points",
     "draw_triangulation",
     "label_curves",
