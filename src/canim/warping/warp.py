@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import reprlib
 import warnings
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,8 +25,9 @@ __all__ = ["warp_backward", "warp_forward"]
 
 Image = NDArray[Any]
 
-# Pixels worked on at a time: few enough that their numbers stay in the cache.
+# Pixels and rows worked on at a time: few enough that their numbers stay in the cache.
 _BLOCK = 2**14
+_ROWS = 64
 
 # Bilinear weights of bytes are whole numbers that add up to 2¹³, so that the sums of three
 # colours fit one integer: 255 · 2¹³ and the half for rounding need 21 of its 64 bits.
@@ -263,9 +264,16 @@ def blend_warped(
         # From here on the rim is part of the image: its first pixel is (0, 0).
         track = _Track(first + 1, step)
         tracks.append(_packed(track) if bytewise else track)
-    blend = _blend_bytes if bytewise else _blend_reals
+    weigh = _byte_weights if bytewise else _real_weights
+    stride = shape[1] + 2
     flat = _rows(ground)
-    for block, sums in blend(images, tracks, shares, _blocks(spans), shape[1] + 2):
+    for block in _blocks(spans):
+        sums = [np.full(block.size, _start(plane, bytewise)) for plane in images[0]]
+        for planes, track, share in zip(images, tracks, shares):
+            corner, weights = weigh(_along(track, block), share, stride)
+            for step, weight in zip((0, 1, stride, stride + 1), weights):
+                for plane, total in zip(planes, sums):
+                    total += plane[step:].take(corner, mode="wrap") * weight
         flat[block.pixels] = _colours(sums, flat.shape[1], ground.dtype, bytewise)
     return ground
 
@@ -325,7 +333,8 @@ def _track(
     shape: tuple[int, int],
 ) -> _Track:
     y, x = np.divmod(spans.start, shape[1])
-    maps = affine_maps(here, there, triangles)[:, :2].transpose(1, 2, 0)[:, :, spans.triangle]
+    maps = affine_maps(here, there, triangles)[:, :2].transpose(1, 2, 0)
+    maps = np.ascontiguousarray(maps).take(spans.triangle, axis=2)
     first = maps[:, 0] * x + maps[:, 1] * y + maps[:, 2]
     last = first + maps[:, 0] * (spans.length - 1)
     # The ends of a span lie inside their triangle up to rounding, but a thin one magnifies that.
@@ -399,82 +408,42 @@ def _nearest(places: Floats) -> Integers:
     return np.floor(places + (0.5 + 1e-9)).astype(np.intp)
 
 
-def _blend_bytes(
-    images: Sequence[list[Image]],
-    tracks: Sequence[_Track],
-    shares: Sequence[float],
-    blocks: Iterable[_Block],
-    stride: int,
-) -> Iterator[tuple[_Block, list[Image]]]:
-    """Yield the sums of each block: whole weights, in units of 2⁻¹³, times packed colours.
+def _byte_weights(places: Integers, share: float, stride: int) -> tuple[Integers, list[Integers]]:
+    """Return the pixels above and to the left of packed places, and the weights of all four.
 
-    All blocks are worked out in the same few arrays: to ask for new ones takes longer than to
-    fill them.
+    Weights are in units of 2⁻¹³. They add up to the share, and none is negative.
     """
-    most = _BLOCK + _PIECE
-    arrays = np.empty((4 + len(images[0]), most), dtype=np.int64)
-    corners = np.empty(most, dtype=np.intp)
-    colours = [np.empty(most, dtype=plane.dtype) for plane in images[0]]
-    for block in blocks:
-        y, both, rest, product, *sums = arrays[:, : block.size]
-        corner = corners[: block.size]
-        for total in sums:
-            total[:] = _HALVES
-        for planes, track, share in zip(images, tracks, shares):
-            x = _along(track, block)
-            np.right_shift(x, 32 + _FINE - _BITS, out=y)
-            x &= 2**32 - 1
-            x >>= _FINE - _BITS
-            np.right_shift(y, _BITS, out=corner, casting="same_kind")
-            corner *= stride
-            corner += x >> _BITS
-            x &= _ONE - 1
-            y &= _ONE - 1
-            np.multiply(x, y, out=both)
-            both >>= _BITS
-            x -= both
-            y -= both
-            whole = round(share * _ONE)
-            if whole < _ONE:
-                for weight in (x, y, both):
-                    weight *= whole
-                    weight >>= _BITS
-            # The four weights add up to the share, and none is negative.
-            np.subtract(whole, x, out=rest)
-            rest -= y
-            rest -= both
-            for step, weight in ((0, rest), (1, x), (stride - 1, y), (1, both)):
-                corner += step
-                for plane, colour, total in zip(planes, colours, sums):
-                    plane.take(corner, out=colour[: block.size], mode="wrap")
-                    np.multiply(colour[: block.size], weight, out=product)
-                    total += product
-        yield block, sums
+    x, y = places.astype(np.int32), (places >> 32).astype(np.int32)
+    corner = ((y >> _FINE) * stride + (x >> _FINE)).astype(np.intp)
+    for fraction in (x, y):
+        fraction >>= _FINE - _BITS
+        fraction &= _ONE - 1
+    both = x * y >> _BITS
+    x -= both
+    y -= both
+    whole = round(share * _ONE)
+    if whole < _ONE:
+        for weight in (x, y, both):
+            weight *= whole
+            weight >>= _BITS
+    return corner, [whole - x - y - both, x, y, both]
 
 
-def _blend_reals(
-    images: Sequence[list[Image]],
-    tracks: Sequence[_Track],
-    shares: Sequence[float],
-    blocks: Iterable[_Block],
-    stride: int,
-) -> Iterator[tuple[_Block, list[Image]]]:
-    """Yield the sums of each block: weights times colours."""
-    for block in blocks:
-        sums: list[Image] = [np.zeros(block.size) for _ in images[0]]
-        for planes, track, share in zip(images, tracks, shares):
-            places = _along(track, block)
-            cell = places.astype(np.intp)
-            f, g = places - cell
-            both = f * g
-            corner = cell[1] * stride + cell[0]
-            weights = (1 - f - g + both, f - both, g - both, both)
-            for step, weight in zip((0, 1, stride - 1, 1), weights):
-                corner += step
-                weight *= share
-                for plane, total in zip(planes, sums):
-                    total += plane.take(corner) * weight
-        yield block, sums
+def _real_weights(places: Floats, share: float, stride: int) -> tuple[Integers, list[Floats]]:
+    """Return the pixels above and to the left of places, and the weights of all four."""
+    cell = places.astype(np.intp)
+    f, g = places - cell
+    both = f * g
+    return cell[1] * stride + cell[0], [
+        share * weight for weight in (1 - f - g + both, f - both, g - both, both)
+    ]
+
+
+def _start(plane: Image, bytewise: bool) -> np.generic:
+    """Return what the sum for a plane begins with: a half where it is rounded by cutting off."""
+    if not bytewise:
+        return np.float64(0)
+    return np.int64(_HALVES) if plane.dtype == np.int64 else np.int32(1 << (_BITS - 1))
 
 
 def _colours(sums: list[Image], channels: int, dtype: np.dtype[Any], bytewise: bool) -> Image:
@@ -483,7 +452,8 @@ def _colours(sums: list[Image], channels: int, dtype: np.dtype[Any], bytewise: b
     for k in range(channels):
         if bytewise:
             # What lies above the eight bits of this colour is cut off by its type.
-            colours[:, k] = sums[k // 3] >> (k % 3 * _LANE + _BITS)
+            sums[k // 3] >>= _LANE if k % 3 else _BITS
+            colours[:, k] = sums[k // 3]
         else:
             colours[:, k] = sums[k] if dtype.kind == "f" else np.floor(sums[k] + 0.5)
     return colours
@@ -494,11 +464,13 @@ def _plane(channels: Sequence[Image]) -> Image:
     height, width = channels[0].shape
     dtype = channels[0].dtype if len(channels) == 1 else np.int64
     plane = np.empty((height + 2, width + 2), dtype)
-    inner = plane[1:-1, 1:-1]
-    inner[:] = channels[-1]
-    for channel in channels[-2::-1]:
-        inner <<= _LANE
-        inner |= channel
+    for top in range(0, height, _ROWS):
+        rows = slice(top, top + _ROWS)
+        packed = channels[-1][rows].astype(dtype)
+        for channel in channels[-2::-1]:
+            packed <<= _LANE
+            packed |= channel[rows]
+        plane[1:-1, 1:-1][rows] = packed
     plane[0], plane[-1] = plane[1], plane[-2]
     plane[:, 0], plane[:, -1] = plane[:, 1], plane[:, -2]
     return plane.reshape(-1)
