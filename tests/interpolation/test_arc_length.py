@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import math
 import tracemalloc
@@ -370,3 +371,16 @@ def test_ten_million_points():
     chords = np.linalg.norm(points[1:] - points[:-1], axis=1)
     np.testing.assert_allclose(chords, 59.88674195838914 / (10**7 - 1), rtol=0, atol=6e-8)
     assert arc_length(CUBIC, 10**7) == pytest.approx(59.88674195838914, rel=1e-12)
+
+
+@pytest.mark.parametrize("tolerance", [1e-12, 0.0])
+def test_newton_stays_between_its_bounds_and_ends(tolerance):
+    # One cell with a stop in it, at 0.3: steps of Newton's method alone go far astray, and a
+    # tolerance of zero is never reached.
+    solve = importlib.import_module("canim.interpolation.arc_length")._solve
+    hodograph = np.array([[0.09], [-0.21], [0.49]])  # (t - 0.3)², of a cubic
+    whole = 0.7**3 + 0.3**3
+    targets = np.linspace(0, whole, 101)
+    zero, one = np.zeros(101), np.ones(101)
+    t = solve(hodograph, zero, one, whole * one, targets, tolerance)
+    np.testing.assert_allclose((t - 0.3) ** 3 + 0.3**3, targets, rtol=0, atol=1e-11)

@@ -206,8 +206,7 @@ def equidistant_parameters(control_points: ArrayLike, count: int) -> Floats:
         rest = targets - (ends - sizes)[cell]
         t[part] = _solve(hodograph, starts[cell], widths[cell], sizes[cell], rest, tolerance)
     t[0], t[-1] = 0, 1
-    # Points closer together than the tolerance must not change places.
-    return np.maximum.accumulate(t)
+    return t
 
 
 def _scaled_hodograph(corners: Floats) -> tuple[Floats, float]:
