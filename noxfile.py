@@ -93,7 +93,8 @@ def build_site(session, builder, target, *options):
     try:
         session.run(*command, *options, "docs", str(target))
     except nox.command.CommandFailed:
-        forget_site()
+        if builder == "html":
+            forget_site()
         raise
 
 

@@ -102,3 +102,36 @@ def test_a_morph_needs_no_triangles_and_grey_stays_the_same_grey(ax):
     _play(film)
     assert ax.images[0].get_clim() == (0, 255)
     assert not ax.collections
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda ax: animate_points(ax, {}), "paths must not be empty"),
+        (lambda ax: animate_points(ax, {"a": np.empty((0, 2))}), "paths must not be empty"),
+        (
+            lambda ax: animate_points(ax, {"a": np.zeros((5, 2)), "b": np.zeros((4, 2))}),
+            "paths must all have as many points, but a has 5 and b 4",
+        ),
+        (lambda ax: animate_construction(ax, []), "frames must not be empty"),
+        (
+            lambda ax: animate_construction(ax, [[[(0, 0)]], [[(0, 0)], [(1, 1)]]]),
+            "frames must all have as many levels, but frame 0 has 1 and frame 1 2",
+        ),
+        (lambda ax: animate_morph(ax, []), "frames, poses must not be empty"),
+        (
+            lambda ax: animate_morph(ax, [np.zeros((4, 4))] * 3, [np.zeros((3, 2))], [(0, 1, 2)]),
+            "as many entries, but frames has 3 and poses 1",
+        ),
+    ],
+)
+def test_a_film_of_nothing_or_of_unequal_parts_is_refused(ax, make, message):
+    with pytest.raises(ValueError, match=message):
+        make(ax)
+    assert not ax.lines
+    assert not ax.images
+
+
+def test_poses_need_triangles(ax):
+    with pytest.raises(TypeError, match="triangles"):
+        animate_morph(ax, [np.zeros((4, 4))], [np.zeros((3, 2))])

@@ -11,7 +11,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from numpy.typing import ArrayLike
 
-from canim.plotting.images import edges, mesh
+from canim.plotting.images import Floats, edges, mesh
 
 _MILLISECONDS = 40  # per frame: 25 frames in a second
 
@@ -38,6 +38,11 @@ def animate_construction(
     matplotlib.animation.FuncAnimation
         Keep it in a variable for as long as the figure is shown.
 
+    Raises
+    ------
+    ValueError
+        If there is no frame, or frames differ in how many levels they have.
+
     Examples
     --------
     >>> import matplotlib.pyplot as plt
@@ -50,6 +55,7 @@ def animate_construction(
     >>> plt.close(fig)
     """
     levels = [[np.asarray(level, float) for level in frame] for frame in frames]
+    _lengths("frames", {f"frame {k}": frame for k, frame in enumerate(levels)}, "levels")
     pen = np.array([frame[-1][0] for frame in levels])
     (trace,) = ax.plot([], [], color="C0", linewidth=3.5)
     chains = [
@@ -85,6 +91,11 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
     matplotlib.animation.FuncAnimation
         Keep it in a variable for as long as the figure is shown.
 
+    Raises
+    ------
+    ValueError
+        If there is no path, a path is empty, or one is longer than another.
+
     Examples
     --------
     >>> import matplotlib.pyplot as plt
@@ -99,6 +110,7 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
     >>> plt.close(fig)
     """
     points = [np.asarray(path, float) for path in paths.values()]
+    _lengths("paths", dict(zip(paths, points)), "points")
     dots = [
         ax.plot(*path[:1].T, "o", color=f"C{k}", markersize=12)[0] for k, path in enumerate(points)
     ]
@@ -148,6 +160,13 @@ def animate_morph(
     matplotlib.animation.FuncAnimation
         Keep it in a variable for as long as the figure is shown.
 
+    Raises
+    ------
+    TypeError
+        If there are poses and no triangles.
+    ValueError
+        If there is no frame, or there are more or fewer poses than frames.
+
     Examples
     --------
     >>> import matplotlib.pyplot as plt
@@ -158,6 +177,12 @@ def animate_morph(
     >>> fig.canvas.draw()  # shows the first moment; plt.show() plays all
     >>> plt.close(fig)
     """
+    sequences: dict[str, Sequence[Any]] = {"frames": frames}
+    if poses is not None:
+        if triangles is None:
+            raise TypeError("triangles must be given where poses are given.")
+        sequences["poses"] = poses
+    _lengths("frames, poses", sequences, "entries")
     ax.set_axis_off()
     # Black and white are the same in all frames, also of grey images.
     image = ax.imshow(np.asarray(frames[0]), cmap="gray", vmin=0, vmax=255)
@@ -174,6 +199,19 @@ def animate_morph(
         return artists
 
     return _film(ax, draw, len(frames), hold)
+
+
+def _lengths(name: str, sequences: Mapping[str, Sequence[Any] | Floats], what: str) -> None:
+    """Refuse a film of nothing, and sequences of which one ends before another."""
+    counts = {key: len(sequence) for key, sequence in sequences.items()}
+    if not all(counts.values()) or not counts:
+        raise ValueError(f"{name} must not be empty.")
+    first, count = next(iter(counts.items()))
+    for key, other in counts.items():
+        if other != count:
+            raise ValueError(
+                f"{name} must all have as many {what}, but {first} has {count} and {key} {other}."
+            )
 
 
 def _level_colors(count: int) -> list[str]:
