@@ -173,6 +173,12 @@ def test_a_loop_without_end_is_ended(capsys):
     assert "did not end within 3 seconds" in " ".join(capsys.readouterr().out.split())
 
 
+def test_a_thread_that_goes_on_is_not_waited_for(capsys):
+    thread = "\nimport threading, time\nthreading.Thread(target=time.sleep, args=[60]).start()\n"
+    assert main(["check", "--time", "30", write("mine.py", DONE + thread)]) == 0
+    assert "All checks of Task 1.1 pass" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize("limit", ["0", "-1", "nan", "inf", "x"])
 def test_a_limit_is_a_number_above_0(limit, capsys):
     with pytest.raises(SystemExit) as ended:
