@@ -137,7 +137,8 @@ def doctest(session):
     texts = [*Path().glob("*.md"), *Path("docs").glob("*.md"), *Path("docs/course").glob("*.md")]
     session.run(
         *["pytest", "--doctest-modules", "--doctest-glob=*.md", *session.posargs],
-        *["--ignore-glob=*/canim/starters/*", "--pyargs", "canim", *map(str, sorted(texts))],
+        *["--ignore-glob=*/canim/starters/*", "--ignore-glob=*/faces_3d.py"],
+        *["--pyargs", "canim", *map(str, sorted(texts))],
     )
 
 
@@ -154,6 +155,17 @@ def tests_lowest(session):
     """Run the tests on the lowest versions that pyproject.toml declares."""
     install(session, "tests", lowest=True)
     session.run("pytest", "--ignore=tests/site", *session.posargs)
+
+
+@nox.session(default=False)
+def tests_3d(session):
+    """Run the tests of what pyvista renders; they fail where it cannot."""
+    install(session, "tests")
+    session.install(*PINNED, *PROJECT["project"]["optional-dependencies"]["3d"])
+    tested = ["tests/plotting/test_faces_3d.py", *session.posargs]
+    session.run("coverage", "run", "--omit=*/starters/*", "-m", "pytest", *tested)
+    session.run("coverage", "combine", "--quiet")
+    session.run("coverage", "report", "--include=*/faces_3d.py", "--fail-under=100")
 
 
 @nox.session

@@ -2,17 +2,21 @@
 
 from canim.plotting.chains import draw_chain
 from canim.plotting.curves import label_curves
+from canim.plotting.faces import animate_face, draw_face, weight_sliders
 from canim.plotting.films import animate_construction, animate_morph, animate_points
 from canim.plotting.images import draw_points, draw_triangulation, pick_points, progress
 
 __all__ = [
     "animate_construction",
+    "animate_face",
     "animate_morph",
     "animate_points",
     "draw_chain",
+    "draw_face",
     "draw_points",
     "draw_triangulation",
     "label_curves",
     "pick_points",
     "progress",
+    "weight_sliders",
 ]

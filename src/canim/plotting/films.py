@@ -55,7 +55,7 @@ def animate_construction(
     >>> plt.close(fig)
     """
     levels = [[np.asarray(level, float) for level in frame] for frame in frames]
-    _lengths("frames", {f"frame {k}": frame for k, frame in enumerate(levels)}, "levels")
+    same_lengths("frames", {f"frame {k}": frame for k, frame in enumerate(levels)}, "levels")
     pen = np.array([frame[-1][0] for frame in levels])
     (trace,) = ax.plot([], [], color="C0", linewidth=3.5)
     chains = [
@@ -71,7 +71,7 @@ def animate_construction(
         dot.set_data(pen[frame : frame + 1, 0], pen[frame : frame + 1, 1])
         return [trace, *chains, dot]
 
-    return _film(ax, draw, len(levels), hold)
+    return film(ax, draw, len(levels), hold)
 
 
 def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> FuncAnimation:
@@ -110,7 +110,7 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
     >>> plt.close(fig)
     """
     points = [np.asarray(path, float) for path in paths.values()]
-    _lengths("paths", dict(zip(paths, points)), "points")
+    same_lengths("paths", dict(zip(paths, points)), "points")
     dots = [
         ax.plot(*path[:1].T, "o", color=f"C{k}", markersize=12)[0] for k, path in enumerate(points)
     ]
@@ -130,7 +130,7 @@ def animate_points(ax: Axes, paths: Mapping[str, ArrayLike], hold: int = 12) -> 
             dot.set_data(path[frame : frame + 1, 0], path[frame : frame + 1, 1])
         return [*dots]
 
-    return _film(ax, draw, len(points[0]), hold)
+    return film(ax, draw, len(points[0]), hold)
 
 
 def animate_morph(
@@ -182,7 +182,7 @@ def animate_morph(
         if triangles is None:
             raise TypeError("triangles must be given where poses are given.")
         sequences["poses"] = poses
-    _lengths("frames, poses", sequences, "entries")
+    same_lengths("frames, poses", sequences, "entries")
     ax.set_axis_off()
     # Black and white are the same in all frames, also of grey images.
     image = ax.imshow(np.asarray(frames[0]), cmap="gray", vmin=0, vmax=255)
@@ -198,10 +198,10 @@ def animate_morph(
             lines.set_segments(edges(poses[frame], triangles))
         return artists
 
-    return _film(ax, draw, len(frames), hold)
+    return film(ax, draw, len(frames), hold)
 
 
-def _lengths(name: str, sequences: Mapping[str, Sequence[Any] | Floats], what: str) -> None:
+def same_lengths(name: str, sequences: Mapping[str, Sequence[Any] | Floats], what: str) -> None:
     """Refuse a film of nothing, and sequences of which one ends before another."""
     counts = {key: len(sequence) for key, sequence in sequences.items()}
     if not all(counts.values()) or not counts:
@@ -219,7 +219,8 @@ def _level_colors(count: int) -> list[str]:
     return ["gray", *(f"C{k}" for k in range(1, count))]
 
 
-def _film(ax: Axes, draw: Any, count: int, hold: int) -> FuncAnimation:
+def film(ax: Axes, draw: Any, count: int, hold: int) -> FuncAnimation:
+    """Return a film of the figure of `ax`: `count` frames, the last one held."""
     frames = [*range(count), *[count - 1] * hold]
     figure: Any = ax.figure.figure  # the whole one, also where ax is in a subfigure
     return FuncAnimation(figure, draw, frames=frames, interval=_MILLISECONDS)
