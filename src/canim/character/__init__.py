@@ -14,13 +14,23 @@ from canim.character.forward_kinematics import (
     joint_transforms,
     numeric_jacobian,
 )
+from canim.character.inverse_kinematics import (
+    IKBatchResult,
+    IKResult,
+    inverse_kinematics,
+    inverse_kinematics_batch,
+)
 
 __all__ = [
     "Face",
+    "IKBatchResult",
+    "IKResult",
     "delta_blendshape",
     "forward_kinematics_2d",
     "forward_kinematics_3d",
     "global_blendshape",
+    "inverse_kinematics",
+    "inverse_kinematics_batch",
     "jacobian_2d",
     "jacobian_3d",
     "joint_transforms",

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import accumulate
-
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -11,18 +9,26 @@ from canim._arguments import Floats, floats, points
 
 
 def chain(
-    angles: ArrayLike, offsets: ArrayLike, root: ArrayLike | None, dimension: int | None = None
+    angles: ArrayLike,
+    offsets: ArrayLike,
+    root: ArrayLike | None,
+    dimension: int | None = None,
+    goals: int | None = None,
 ) -> tuple[Floats, Floats, Floats]:
-    """Return angles (N,) or (N, 3), offsets (N, d) and root (d,) that fit each other."""
+    """Return angles (N,) or (N, 3), offsets (N, d) and root (d,) that fit each other.
+
+    With a number of goals, the angles may also begin with the axis of the goals.
+    """
     offsets = links(offsets, dimension)
     count, dimension = offsets.shape
     shape = (count,) if dimension == 2 else (count, 3)
     angles = floats(angles, "angles")
-    if angles.shape != shape:
+    if angles.shape != shape and (goals is None or angles.shape != (goals, *shape)):
         each = "one angle" if dimension == 2 else "three angles"
+        more = "" if goals is None else f" or, with a pose for each goal, {(goals, *shape)}"
         raise ValueError(
             f"angles must hold {each} for each of the {count} links in offsets, "
-            f"shape {shape}, but has shape {angles.shape}."
+            f"shape {shape}{more}, but has shape {angles.shape}."
         )
     return angles, offsets, place(np.zeros(dimension) if root is None else root, "root", dimension)
 
@@ -53,21 +59,28 @@ def place(value: ArrayLike, name: str, dimension: int) -> Floats:
     return point
 
 
-def accumulated_rotations(angles: Floats) -> Floats:
-    """Return for every link the rotation of all joints up to its own, (N, d, d)."""
-    if angles.ndim == 2:
-        return np.array(list(accumulate(rotations(angles), np.matmul)))
+def flat_rotations(angles: Floats) -> Floats:
+    """Return for every link the rotation of all joints up to its own: (N,) to (N, 2, 2)."""
     total = np.cumsum(angles)
     c, s = np.cos(total), np.sin(total)
     return np.stack([c, -s, s, c], axis=-1).reshape(-1, 2, 2)
 
 
 def rotations(angles: Floats) -> Floats:
-    """Return Rx·Ry·Rz of every row of angles, (N, 3, 3)."""
-    (a, b, c), (sa, sb, sc) = np.cos(angles.T), np.sin(angles.T)
+    """Return for every joint Rx·Ry·Rz: (..., 3) to (..., 3, 3)."""
+    a, b, c = np.moveaxis(np.cos(angles), -1, 0)
+    sa, sb, sc = np.moveaxis(np.sin(angles), -1, 0)
     rows = [
         *(b * c, -b * sc, sb),
         *(a * sc + sa * sb * c, a * c - sa * sb * sc, -sa * b),
         *(sa * sc - a * sb * c, sa * c + a * sb * sc, a * b),
     ]
-    return np.stack(rows, axis=-1).reshape(-1, 3, 3)
+    return np.stack(rows, axis=-1).reshape(*angles.shape, 3)
+
+
+def accumulated(rotations: Floats) -> Floats:
+    """Multiply the rotations along the chain: (..., N, 3, 3), the same shape."""
+    result = rotations.copy()
+    for k in range(1, result.shape[-3]):
+        np.matmul(result[..., k - 1, :, :], rotations[..., k, :, :], out=result[..., k, :, :])
+    return result

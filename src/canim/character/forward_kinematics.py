@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from canim._arguments import Floats, finite, floats
-from canim.character._chain import accumulated_rotations, chain
+from canim.character._chain import accumulated, chain, flat_rotations, rotations
 
 __all__ = [
     "forward_kinematics_2d",
@@ -195,10 +195,10 @@ def joint_transforms(
             [ 1.,  0.,  8.],
             [ 0.,  0.,  1.]]])
     """
-    rotations, positions = _pose(*chain(angles, offsets, root))
+    turned, positions = _pose(*chain(angles, offsets, root))
     count, dimension = positions.shape
     transforms = np.tile(np.eye(dimension + 1), (count, 1, 1))
-    transforms[1:, :-1, :-1] = rotations
+    transforms[1:, :-1, :-1] = turned
     transforms[:, :-1, -1] = positions
     return transforms
 
@@ -399,7 +399,7 @@ def jacobian_3d(angles: ArrayLike, offsets: ArrayLike) -> Floats:
 def _pose(angles: Floats, offsets: Floats, root: Floats) -> tuple[Floats, Floats]:
     """Return how every link lies, (N, d, d), and where the joints are, (N + 1, d)."""
     with np.errstate(over="ignore", invalid="ignore"):
-        rotations = accumulated_rotations(angles)
-        links = np.einsum("nij,nj->ni", rotations, offsets)
+        turned = flat_rotations(angles) if angles.ndim == 1 else accumulated(rotations(angles))
+        links = np.einsum("nij,nj->ni", turned, offsets)
         positions = np.cumsum(np.concatenate([root[None], links]), axis=0)
-    return rotations, finite(positions, "angles, offsets and root")
+    return turned, finite(positions, "angles, offsets and root")
