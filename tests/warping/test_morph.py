@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from PIL import Image
+from scipy.spatial import KDTree
 
 from canim.warping import (
     add_frame_points,
@@ -264,6 +265,15 @@ def test_gif_of_a_short_film_has_a_palette_for_each_end(tmp_path):
     save_gif(tmp_path / "film.gif", frames)
     found, _ = read_gif(tmp_path / "film.gif")
     assert decibels(frames, found) >= decibels(frames, plain_gif(frames)) - 0.5
+
+
+def test_gif_of_photographs_has_the_nearest_colours(tmp_path):
+    frames = photographs(2, 80)
+    save_gif(tmp_path / "film.gif", frames)
+    for frame, found in zip(frames, read_gif(tmp_path / "film.gif")[0], strict=True):
+        palette = np.unique(found.reshape(-1, 3), axis=0)
+        nearest = KDTree(palette).query(frame)[0]
+        assert np.mean((found - frame) ** 2) * 3 <= 1.015 * np.mean(nearest**2)
 
 
 def test_gif_of_drawings_keeps_their_colours(tmp_path):

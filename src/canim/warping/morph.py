@@ -207,8 +207,8 @@ def save_gif(path: str | os.PathLike[str], frames: Iterable[ArrayLike], fps: flo
 
     References
     ----------
-    P. Heckbert, *Color Image Quantization for Frame Buffer Display*, Computer Graphics 16(3),
-    1982.
+    M. Gervautz, W. Purgathofer, *A Simple Method for Color Quantization: Octree Quantization*,
+    New Trends in Computer Graphics, Springer, 1988.
 
     Examples
     --------
@@ -241,6 +241,7 @@ def save_gif(path: str | os.PathLike[str], frames: Iterable[ArrayLike], fps: flo
         duration=10 * round(100 / float(rate)),
         loop=0,
         optimize=drawn,
+        interlace=False,
     )
 
     part = target.with_name(target.name + ".part")
@@ -366,40 +367,31 @@ def _with_shared_palettes(images: list[Image]) -> list[Pictures.Image]:
 def _with_one_palette(images: list[Image]) -> list[Pictures.Image]:
     """Give every pixel of some frames its nearest colour of one palette."""
     palette = _palette(images)
-    # The nearest colour is found once for all pixels that agree in the upper six bits.
-    cells = [
-        np.left_shift(image[:, :, 0] >> 2, 12, dtype=np.int32)
-        | np.left_shift(image[:, :, 1] >> 2, 6, dtype=np.int32)
-        | image[:, :, 2] >> 2
-        for image in images
-    ]
-    seen = np.zeros(64**3, dtype=bool)
-    for cell in cells:
-        seen[cell] = True
-    middles = 4 * np.stack(np.unravel_index(np.flatnonzero(seen), (64, 64, 64)), axis=1) + 1.5
-    nearest = np.zeros(64**3, dtype=np.uint8)
-    nearest[seen] = KDTree(palette).query(middles)[1]
-    pictures = []
-    for cell in cells:
-        picture = Pictures.fromarray(nearest[cell])
+    # Pillow decides once for 4 × 4 × 4 colours, by the darkest; two levels lower that is the middle.
+    darker = Pictures.new("P", (1, 1))
+    darker.putpalette((np.maximum(palette, 2) - 2).tobytes())
+    film = Pictures.fromarray(np.concatenate(images))
+    numbers = np.asarray(film.quantize(palette=darker, dither=Pictures.Dither.NONE))
+    pictures = [Pictures.fromarray(part) for part in np.split(numbers, len(images))]
+    for picture in pictures:
         picture.putpalette(palette.tobytes())
-        pictures.append(picture)
     return pictures
 
 
 def _palette(images: list[Image]) -> Image:
-    """Return up to 256 colours: median cut of a sample, then a few steps of k-means."""
+    """Return up to 256 colours: an octree of a sample, then a few steps of k-means."""
     rng = np.random.default_rng(0)
     height, width = images[0].shape[:2]
     size = _SAMPLE // len(images) + 1
     parts = [image[rng.integers(0, height, size), rng.integers(0, width, size)] for image in images]
     sample = np.concatenate(parts)
-    median_cut = Pictures.fromarray(sample[None]).quantize(256).getpalette()
-    palette = np.reshape(np.array(median_cut, dtype=np.float64), (-1, 3))
-    for _ in range(2):
+    octree = Pictures.fromarray(sample[None]).quantize(256, Pictures.Quantize.FASTOCTREE)
+    palette = np.reshape(np.array(octree.getpalette(), dtype=np.float64), (-1, 3))
+    for _ in range(3):
         nearest = KDTree(palette).query(sample)[1]
         count = np.bincount(nearest, minlength=len(palette))
         for channel in range(3):
             total = np.bincount(nearest, sample[:, channel], minlength=len(palette))
             np.divide(total, count, out=palette[:, channel], where=count > 0)
+        palette[count == 0] = sample[rng.integers(0, len(sample), np.count_nonzero(count == 0))]
     return np.rint(palette).astype(np.uint8)
