@@ -367,7 +367,7 @@ def _with_shared_palettes(images: list[Image]) -> list[Pictures.Image]:
 def _with_one_palette(images: list[Image]) -> list[Pictures.Image]:
     """Give every pixel of some frames its nearest colour of one palette."""
     palette = _palette(images)
-    # Pillow decides once for 4 × 4 × 4 colours, by the darkest; two levels lower that is the middle.
+    # Pillow decides once for 4 × 4 × 4 colours, by the darkest: two levels down it is the middle.
     darker = Pictures.new("P", (1, 1))
     darker.putpalette((np.maximum(palette, 2) - 2).tobytes())
     film = Pictures.fromarray(np.concatenate(images))
