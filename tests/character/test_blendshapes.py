@@ -100,6 +100,22 @@ def test_a_sum_of_two_doubles_the_face_unless_deltas_are_used():
     np.testing.assert_allclose(still[4:], NEUTRAL - (0, 0, 2), atol=1e-15)
 
 
+@pytest.mark.parametrize("frames", [1, 3])
+def test_meshes_of_many_vertices(frames):
+    """They are mixed part by part; the parts meet."""
+    rng = np.random.default_rng(6)
+    neutral, shapes = rng.normal(size=(20_011, 3)), rng.normal(size=(3, 20_011, 3))
+    weights = rng.normal(size=(frames, 3))
+    np.testing.assert_allclose(
+        global_blendshape(shapes, weights), np.einsum("fk,kvc->fvc", weights, shapes), atol=1e-13
+    )
+    np.testing.assert_allclose(
+        delta_blendshape(neutral, shapes, weights),
+        neutral + np.einsum("fk,kvc->fvc", weights, shapes - neutral),
+        atol=1e-13,
+    )
+
+
 @pytest.mark.parametrize("frames", [0, 1, 7])
 def test_a_row_of_weights_for_each_frame(frames):
     table = np.random.default_rng(4).normal(size=(frames, 3))
@@ -254,6 +270,15 @@ def test_neutral(bad, error, match):
 def test_results_too_large(call, dtype, weight):
     shapes, weights = SHAPES.astype(dtype), [weight, weight, 0]
     refuses(call, ValueError, r"shapes, weights: too large", shapes=shapes, weights=weights)
+
+
+def test_large_numbers_that_fit():
+    """Their squares do not fit a float, they do."""
+    for dtype, scale in ((np.float32, 1e30), (np.float64, 1e200)):
+        shapes = (scale * SHAPES).astype(dtype)
+        np.testing.assert_allclose(
+            global_blendshape(shapes, WEIGHTS), scale * loop(SHAPES, WEIGHTS), rtol=1e-6
+        )
 
 
 # --- Face

@@ -191,14 +191,33 @@ def test_other_topologies(tmp_path):
     )
     # Fewer vertices, though the face lines are the same.
     refuses(
-        folder(tmp_path / "fewer", neutral=more.replace("v 2 0 0\n", "v 2 0 0\n"), smile=SQUARE),
+        folder(tmp_path / "fewer", neutral=more, smile=SQUARE),
         r"^folder: smile\.obj has 4 vertices and neutral\.obj 5;",
     )
-    for faces in ("f 2 3 4 1", "f 1 2 3", "f 4 3 2 1"):
-        refuses(
-            folder(tmp_path / faces, neutral=SQUARE, smile=SQUARE.replace("f 1 2 3 4", faces)),
-            r"^folder: smile\.obj and neutral\.obj have different faces;",
-        )
+
+
+@pytest.mark.parametrize(
+    ("first", "other"),
+    [
+        ("f 1 2 3 4", "f 2 3 4 1"),
+        ("f 1 2 3 4", "f 4 3 2 1"),
+        ("f 1 2 3 4", "f 1 2 3"),
+        ("f 1 2 3 4", "f 1 2 4\nf 1 2 3 4"),
+        ("f 1 2 3\n\tf 1 3 4", "f 1 2 3"),
+        ("\tf 1 2 4\nf 1 2 3", "f 1 2 3"),
+        ("f 1 2 3", "\tf 1 2 4\nf 1 2 3"),
+        ("f 1 2 3", " f 1 2 4\nf 1 2 3"),
+    ],
+)
+def test_other_faces(tmp_path, first, other):
+    files = {
+        name: SQUARE.replace("f 1 2 3 4", faces)
+        for name, faces in (("neutral", first), ("smile", other))
+    }
+    refuses(
+        folder(tmp_path, **files),
+        r"^folder: smile\.obj and neutral\.obj have different faces;",
+    )
 
 
 def test_folders_without_faces(tmp_path):

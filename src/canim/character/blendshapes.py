@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import math
 import os
+import re
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -13,11 +14,16 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from canim._arguments import Floats, finite, floats, points, real
+from canim._arguments import Floats, floats, points, real
 
 __all__ = ["Face", "delta_blendshape", "global_blendshape", "load_expressions"]
 
 Integers = NDArray[np.int64]
+
+# So many coordinates are mixed at once: they stay near the processor while they are worked on.
+_BLOCK = 16384
+
+_FIRST_FACE = re.compile(r"\n[ \t]*f\b")
 
 
 def global_blendshape(shapes: ArrayLike, weights: ArrayLike) -> Floats:
@@ -70,7 +76,7 @@ def global_blendshape(shapes: ArrayLike, weights: ArrayLike) -> Floats:
     array([[1., 2., 3.]])
     """
     table = _shapes(shapes)
-    return _checked(_mix(table, _weights(weights, table)), shapes=table)
+    return _mix(table, _weights(weights, table))
 
 
 def delta_blendshape(neutral: ArrayLike, shapes: ArrayLike, weights: ArrayLike) -> Floats:
@@ -135,13 +141,7 @@ def delta_blendshape(neutral: ArrayLike, shapes: ArrayLike, weights: ArrayLike) 
             f"neutral must have the shape of each of the shapes, {table.shape[1:]}, "
             f"but has {start.shape}."
         )
-    numbers = _weights(weights, table)
-    # The sum of the neutral's weights is taken out of the sum: no difference is ever stored.
-    with np.errstate(over="ignore", invalid="ignore"):
-        rest = (1 - numbers.sum(axis=-1, dtype=np.float64)).astype(table.dtype)
-        mixed = _mix(table, numbers)
-        mixed += np.multiply.outer(rest, start.astype(table.dtype, copy=False))
-    return _checked(mixed, neutral=start, shapes=table)
+    return _mix(table, _weights(weights, table), start.astype(table.dtype, copy=False))
 
 
 class Face:
@@ -363,20 +363,23 @@ def load_expressions(folder: str | os.PathLike[str]) -> Face:
 
 
 class _Mesh(NamedTuple):
-    """What an OBJ file holds. A polygon: its line, how many vertices precede it, its corners."""
+    """What an OBJ file holds; `tail` is its text from the first face on, if only faces follow."""
 
     vertices: Floats
     colors: Floats | None
     triangles: Integers
-    polygons: list[tuple[int, int, list[str]]]
+    tail: str | None
 
 
 def _read_obj(path: Path, known: _Mesh | None = None) -> _Mesh:
-    """Read an OBJ file; polygons written as in `known` are not split again."""
+    """Read an OBJ file; faces written as those of `known` are not read again."""
+    text = "\n" + path.read_text(encoding="utf-8-sig", errors="replace").replace("\\\n", " ")
+    first = _FIRST_FACE.search(text)
+    tail = text[first.start() :] if first else ""
+    same = known is not None and tail == known.tail
     rows: list[list[float]] = []
     polygons: list[tuple[int, int, list[str]]] = []
-    text = path.read_text(encoding="utf-8-sig", errors="replace").replace("\\\n", " ")
-    for number, line in enumerate(text.split("\n"), 1):
+    for number, line in enumerate((text.removesuffix(tail) if same else text).split("\n")):
         kind, *values = line.partition("#")[0].split() or [""]
         if kind == "v":
             try:
@@ -387,20 +390,20 @@ def _read_obj(path: Path, known: _Mesh | None = None) -> _Mesh:
                 raise _broken(path, number, line, "v x y z")
         elif kind == "f":
             polygons.append((number, len(rows), values))
-    if not rows or not polygons:
+    if not rows or not (polygons or same):
         missing = "faces" if rows else "vertices"
         raise ValueError(f"folder: {path.name} holds no {missing}, it is no mesh.")
     with_colors = min(map(len, rows)) >= 6
     table = np.array([row[: 6 if with_colors else 3] for row in rows])
-    if known is not None and polygons == known.polygons:
-        triangles = known.triangles
-    else:
-        triangles = _split(path, polygons, len(rows))
-    return _Mesh(table[:, :3], table[:, 3:] if with_colors else None, triangles, polygons)
+    colors = table[:, 3:] if with_colors else None
+    if known is not None and same:
+        return _Mesh(table[:, :3], colors, known.triangles, tail)
+    triangles = _split(path, polygons, len(rows))
+    return _Mesh(table[:, :3], colors, triangles, tail if polygons[0][1] == len(rows) else None)
 
 
 def _split(path: Path, polygons: list[tuple[int, int, list[str]]], count: int) -> Integers:
-    """Return the triangles of polygons with three and more corners, as fans."""
+    """Return the triangles of polygons: their lines, the vertices before them, their corners."""
     triangles: list[tuple[int, int, int]] = []
     for number, before, values in polygons:
         try:
@@ -459,24 +462,33 @@ def _weights(value: ArrayLike, shapes: NDArray[Any]) -> NDArray[Any]:
         return weights.astype(shapes.dtype, copy=False)
 
 
-def _mix(shapes: NDArray[Any], weights: NDArray[Any]) -> NDArray[Any]:
-    """Return the weighted sums of the shapes, by one product that reads each number once."""
-    rows = shapes.reshape(len(shapes), -1)
-    with np.errstate(over="ignore", invalid="ignore"):
-        mixed: NDArray[Any] = weights @ rows
-    return mixed.reshape(*weights.shape[:-1], *shapes.shape[1:])
+@np.errstate(over="ignore", invalid="ignore")
+def _mix(
+    shapes: NDArray[Any], weights: NDArray[Any], neutral: NDArray[Any] | None = None
+) -> NDArray[Any]:
+    """Return the weighted sums of the shapes, of their differences from `neutral` if given.
 
-
-def _checked(mixed: NDArray[Any], **inputs: NDArray[Any]) -> NDArray[Any]:
-    """Return `mixed`; where it is not finite, say which of the inputs is to blame."""
-    # To look at the result is much less work than to look at all shapes.
-    try:
-        return finite(mixed, f"{', '.join(inputs)}, weights")
-    except ValueError as error:
-        too_large = error
-    for name, value in inputs.items():
-        floats(value, name)
-    raise too_large
+    The shapes are read once, and no difference is stored: the neutral face is added as often
+    as all differences take it away.
+    """
+    rows, table = shapes.reshape(len(shapes), -1), np.atleast_2d(weights)
+    mixed = np.empty((len(table), rows.shape[1]), dtype=shapes.dtype)
+    rest = (1 - table.sum(axis=1, keepdims=True, dtype=np.float64)).astype(shapes.dtype)
+    fits = True
+    for begin in range(0, rows.shape[1], _BLOCK):
+        block = slice(begin, begin + _BLOCK)
+        part = np.matmul(table, rows[:, block], out=mixed[:, block])
+        if neutral is not None:
+            part += rest * neutral.ravel()[block]
+        # A sum of squares that is finite tells quickly that all numbers are.
+        fits = fits and bool(np.isfinite(np.vecdot(part, part)).all())
+    result = mixed.reshape(*weights.shape[:-1], *shapes.shape[1:])
+    if not fits and not np.isfinite(result).all():
+        for name, value in (("neutral", neutral), ("shapes", shapes)):
+            if value is not None:
+                floats(value, name)
+        raise ValueError("shapes, weights: too large, the result does not fit a float.")
+    return result
 
 
 def _vertices(value: ArrayLike, name: str) -> Floats:

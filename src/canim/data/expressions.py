@@ -13,24 +13,25 @@ _FOLDER = Path(__file__).with_name("face")
 #: Weights of moods and of sounds, for `canim.character.Face.weights`: how much of each
 #: expression of `face` makes a happy, sad, surprised or angry face, or one that says A, O or M.
 MIXES: dict[str, dict[str, float]] = {
-    "happy": {"smile_left": 0.9, "smile_right": 0.9, "squint": 0.3, "teeth": 0.2},
-    "sad": {"frown": 0.8, "brows_up_inner": 1, "blink_left": 0.25, "blink_right": 0.25},
+    "happy": {"smile_left": 0.9, "smile_right": 0.9, "squint": 0.4, "teeth": 0.25},
+    "sad": {"frown": 0.8, "brows_up_inner": 1, "blink_left": 0.2, "blink_right": 0.2},
     "surprised": {
-        "mouth_open": 0.5,
-        "o": 0.3,
+        "mouth_open": 0.4,
+        "o": 0.4,
         "eyes_wide": 1,
         "brows_up_inner": 0.8,
-        "brow_up_left": 1,
-        "brow_up_right": 1,
+        "brow_up_left": 0.8,
+        "brow_up_right": 0.8,
     },
     "angry": {
-        "brow_down_left": 1,
-        "brow_down_right": 1,
-        "nose_wrinkle": 0.5,
-        "lips_pressed": 0.5,
-        "frown": 0.3,
+        "brow_down_left": 0.8,
+        "brow_down_right": 0.8,
+        "nose_wrinkle": 0.4,
+        "eyes_wide": 0.4,
+        "frown": 0.6,
+        "teeth": 0.3,
     },
-    "A": {"mouth_open": 0.7, "teeth": 0.3},
+    "A": {"mouth_open": 0.7, "teeth": 0.2},
     "O": {"o": 1},
     "M": {"lips_pressed": 1},
 }
