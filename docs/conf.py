@@ -83,6 +83,7 @@ sphinx_gallery_conf = {
     "examples_dirs": "../gallery",
     "gallery_dirs": "gallery",
     "filename_pattern": r"[\\/]task_",
+    "subsection_order": [f"../gallery/{block}" for block in canim.checks.BLOCKS],
     "within_subsection_order": "FileNameSortKey",
     "parallel": 2,
     "reset_modules": ("matplotlib", "pictures.reset"),

@@ -267,12 +267,10 @@ def _size(node):
 
 
 def visit_picture(self, node):
-    # The first picture is often what a page shows first: only later ones wait.
-    lazy = ' loading="lazy"' if getattr(self, "_seen_picture", False) else ""
-    self._seen_picture = True
+    # Above the first picture stand title and card: text is painted first, no picture delays it.
     self.body.append(
         f'<div class="picture"><img src="{_address(self, node)}" alt="{escape(node["alt"])}"'
-        f'{_size(node)}{lazy} decoding="async"></div>\n'
+        f'{_size(node)} loading="lazy" decoding="async"></div>\n'
     )
     raise nodes.SkipNode
 

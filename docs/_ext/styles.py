@@ -1,18 +1,28 @@
-"""One style sheet for all pages: with a request for each of its parts a page paints later."""
+"""One style sheet and one script for all pages: a request for each part delays the first paint."""
 
 from __future__ import annotations
 
 import re
 import zlib
 
-TOGETHER = (
-    "pygments.css",
-    "styles/furo.css",
-    "katex.css",
-    "copybutton.css",
-    "styles/furo-extensions.css",
-    "course.css",
-)
+TOGETHER = {
+    "site.css": (
+        "pygments.css",
+        "styles/furo.css",
+        "katex.css",
+        "copybutton.css",
+        "styles/furo-extensions.css",
+        "course.css",
+    ),
+    "site.js": (
+        "documentation_options.js",
+        "doctools.js",
+        "sphinx_highlight.js",
+        "scripts/furo.js",
+        "clipboard.min.js",
+        "copybutton.js",
+    ),
+}
 # What extensions link on every page, and the classes of the pages that need it.
 SELDOM = {
     "sphinx-design.min.css": "sd-",
@@ -31,19 +41,20 @@ def _link(app, pagename, templatename, context, doctree):
             for start, prefix in SELDOM.items()
         )
 
-    def names(files):
-        return {file: (file.filename or "").rpartition("_static/")[2] for file in files}
+    for together, files in (("site.css", "css_files"), ("site.js", "script_files")):
+        names = {file: (file.filename or "").rpartition("_static/")[2] for file in context[files]}
+        context[files] = [
+            f"_static/{together}?v={_version(app, together)}",
+            *(
+                file
+                for file, name in names.items()
+                if name not in TOGETHER[together] and not is_seldom(name)
+            ),
+        ]
 
-    styles, scripts = names(context["css_files"]), names(context["script_files"])
-    context["script_files"] = [file for file, name in scripts.items() if not is_seldom(name)]
-    context["css_files"] = [
-        f"_static/site.css?v={_version(app)}",
-        *(file for file, name in styles.items() if name not in TOGETHER and not is_seldom(name)),
-    ]
 
-
-def _version(app):
-    texts = (app.outdir.joinpath("_static", name).read_bytes() for name in TOGETHER)
+def _version(app, together):
+    texts = (app.outdir.joinpath("_static", name).read_bytes() for name in TOGETHER[together])
     return f"{zlib.crc32(b''.join(texts)):08x}"
 
 
@@ -51,9 +62,15 @@ def _write(app, exception):
     if exception or app.builder.format != "html":
         return
     static = app.outdir / "_static"
-    texts = [static.joinpath(name).read_text(encoding="utf-8") for name in TOGETHER]
-    text = re.sub(r"/\*# sourceMappingURL=.*?\*/", "", "\n".join(texts))
-    (static / "site.css").write_text(text, encoding="utf-8")
+    for together, names in TOGETHER.items():
+        texts = [static.joinpath(name).read_text(encoding="utf-8") for name in names]
+        text = re.sub(
+            r"/\*# sourceMappingURL=.*?\*/|^//# sourceMappingURL=.*$",
+            "",
+            "\n".join(texts),
+            flags=re.M,
+        )
+        (static / together).write_text(text, encoding="utf-8")
 
 
 def setup(app):
