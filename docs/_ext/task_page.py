@@ -85,8 +85,10 @@ def _fold_code(page):
 
 def _how_drawn(code):
     shown = [type(node).__name__ for node in code.parent[code.parent.index(code) + 1 :]]
-    kind = {"film": "film", "gif": "GIF"}.get("".join(shown[:1]), "picture")
-    return f"How this {kind} is drawn"
+    kind = {"film": "film", "gif": "GIF", "literal_block": "table"}.get(
+        "".join(shown[:1]), "picture"
+    )
+    return f"How this {kind} is {'made' if kind == 'table' else 'drawn'}"
 
 
 def _put_behind(summary, code):

@@ -249,5 +249,5 @@ for ax, degrees in zip(axes, poses):
 # Read more
 # ---------
 # In canim: :func:`canim.character.forward_kinematics_2d` and
-# :func:`canim.character.joint_transforms`. Next: Task 3.2, where the arm finds its angles
-# by itself.
+# :func:`canim.character.joint_transforms`. Next: :ref:`Task 3.2 <task-3-2>`, where the arm
+# finds its angles by itself.

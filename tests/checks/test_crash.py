@@ -15,6 +15,7 @@ PROGRAMS = {
     "import numpy as np\nnp.zeros(3)[0.5]": "An index must be a whole number",
     "import numpy as np\nnp.zeros(3)[0, 1]": "too many numbers between these square brackets",
     "import numpy as np\nnp.zeros(3)[5:8] = [1, 2, 3]": "There is nothing to write into",
+    "import numpy as np\nnp.linalg.inv(np.ones((2, 3)))": "Only a square matrix has an inverse.",
     "import numpy as np\nnp.eye(4) @ 2.0": "One side of @ is a single number",
     "(1, 2) - (3, 4)": "Lists and tuples do not calculate",
     "x = 2t": "Is a star missing?",

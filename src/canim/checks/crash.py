@@ -61,6 +61,7 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (IndexError, "", "An index is too large: counting starts at 0 and ends one before the length."),
     (ZeroDivisionError, "", "Something is divided by zero."),
     (RecursionError, "", "A function calls itself without end."),
+    (ValueError, "must be square", "Only a square matrix has an inverse."),
     (ValueError, r"into shape \(0", "There is nothing to write into: these places are outside."),
     (ValueError, "enough dimensions", "One side of @ is a single number, not an array."),
     (ValueError, "broadcast|shape|dimension|aligned|matmul", "The sizes of two arrays differ."),

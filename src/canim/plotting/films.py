@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from canim.plotting.images import Floats, edges, mesh
 
-_MILLISECONDS = 40  # per frame: 25 frames in a second
+MILLISECONDS = 40  # per frame: 25 frames in a second
 
 
 def animate_construction(
@@ -223,4 +223,4 @@ def film(ax: Axes, draw: Any, count: int, hold: int) -> FuncAnimation:
     """Return a film of the figure of `ax`: `count` frames, the last one held."""
     frames = [*range(count), *[count - 1] * hold]
     figure: Any = ax.figure.figure  # the whole one, also where ax is in a subfigure
-    return FuncAnimation(figure, draw, frames=frames, interval=_MILLISECONDS)
+    return FuncAnimation(figure, draw, frames=frames, interval=MILLISECONDS)
