@@ -104,7 +104,7 @@ def test_a_sum_of_two_doubles_the_face_unless_deltas_are_used():
 def test_meshes_of_many_vertices(frames):
     """They are mixed part by part; the parts meet."""
     rng = np.random.default_rng(6)
-    neutral, shapes = rng.normal(size=(20_011, 3)), rng.normal(size=(3, 20_011, 3))
+    neutral, shapes = rng.normal(size=(30_011, 3)), rng.normal(size=(3, 30_011, 3))
     weights = rng.normal(size=(frames, 3))
     np.testing.assert_allclose(
         global_blendshape(shapes, weights), np.einsum("fk,kvc->fvc", weights, shapes), atol=1e-13

@@ -20,8 +20,9 @@ __all__ = ["Face", "delta_blendshape", "global_blendshape", "load_expressions"]
 
 Integers = NDArray[np.int64]
 
-# So many coordinates are mixed at once: they stay near the processor while they are worked on.
-_BLOCK = 16384
+# So many coordinates of a frame, fewer of many frames, are mixed at once: they stay near the
+# processor while they are worked on.
+_BLOCK = 65536
 
 _FIRST_FACE = re.compile(r"\n[ \t]*f\b")
 
@@ -474,9 +475,9 @@ def _mix(
     rows, table = shapes.reshape(len(shapes), -1), np.atleast_2d(weights)
     mixed = np.empty((len(table), rows.shape[1]), dtype=shapes.dtype)
     rest = (1 - table.sum(axis=1, keepdims=True, dtype=np.float64)).astype(shapes.dtype)
-    fits = True
-    for begin in range(0, rows.shape[1], _BLOCK):
-        block = slice(begin, begin + _BLOCK)
+    fits, step = True, _BLOCK // max(1, min(8, len(table)))
+    for begin in range(0, rows.shape[1], step):
+        block = slice(begin, begin + step)
         part = np.matmul(table, rows[:, block], out=mixed[:, block])
         if neutral is not None:
             part += rest * neutral.ravel()[block]
