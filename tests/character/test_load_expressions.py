@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 import time
 
@@ -84,20 +85,30 @@ def test_bytes_that_are_no_text_in_a_comment(tmp_path):
     assert len(load_expressions(path).neutral) == 4
 
 
-def test_colors(tmp_path):
-    coloured = re.sub(r"(v.*)", r"\1 1 0.5 0.25", SQUARE)
+@pytest.mark.parametrize(
+    ("written", "read"),
+    [
+        ("1 0.5 0.25", (1, 0.5, 0.25)),
+        ("255 51 0", (1, 0.2, 0)),
+        ("-0.001 0.5 1", (0, 0.5, 1)),
+        ("0 0 0 1", (0, 0, 0)),
+    ],
+)
+def test_colors(tmp_path, written, read):
+    coloured = re.sub(r"(v.*)", rf"\1 {written}", SQUARE)
     face = load_expressions(folder(tmp_path, neutral=coloured, smile=RAISED))
-    assert np.array_equal(face.colors, [(1, 0.5, 0.25)] * 4)
+    assert np.array_equal(face.colors, [read] * 4)
+    assert np.array_equal(face.neutral, CORNERS)
 
 
 def test_as_trimesh_reads(tmp_path):
-    """Triangles, quads and pentagons, and vertices that lie on each other or in no face."""
+    """Triangles, quads and pentagons, and vertices that lie on each other."""
     rng = np.random.default_rng(7)
     vertices = np.repeat(rng.normal(size=(40, 3)), 2, axis=0)
     lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in vertices]
+    corner = itertools.cycle(rng.permutation(80) + 1)
     for count in rng.integers(3, 6, 60):
-        corners = rng.choice(np.arange(1, 71), count, replace=False)
-        lines.append("f " + " ".join(map(str, corners)))
+        lines.append("f " + " ".join(str(next(corner)) for _ in range(count)))
     text = "\n".join(lines)
     face = load_expressions(folder(tmp_path, neutral=text, same=text))
     mesh = trimesh.load_mesh(tmp_path / "same.obj", process=False, maintain_order=True)

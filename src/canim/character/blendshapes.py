@@ -396,7 +396,10 @@ def _read_obj(path: Path, known: _Mesh | None = None) -> _Mesh:
         raise ValueError(f"folder: {path.name} holds no {missing}, it is no mesh.")
     with_colors = min(map(len, rows)) >= 6
     table = np.array([row[: 6 if with_colors else 3] for row in rows])
-    colors = table[:, 3:] if with_colors else None
+    colors = None
+    if with_colors:
+        # Some programs count colours up to 255.
+        colors = np.clip(table[:, 3:] / (255 if table[:, 3:].max() > 1 else 1), 0, 1)
     if known is not None and same:
         return _Mesh(table[:, :3], colors, known.triangles, tail)
     triangles = _split(path, polygons, len(rows))
