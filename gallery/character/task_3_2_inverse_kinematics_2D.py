@@ -354,4 +354,5 @@ ax.axhline(tolerance, color="C1", linestyle="--")
 # Read more
 # ---------
 # In canim: :func:`canim.character.inverse_kinematics`, :func:`canim.character.jacobian_2d` and
-# :func:`canim.character.numeric_jacobian`. Next: Task 3.3, where the arm leaves the plane.
+# :func:`canim.character.numeric_jacobian`. Next:
+# :ref:`Task 3.3 <task-3-3>`, where the arm leaves the plane.

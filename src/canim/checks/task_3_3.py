@@ -1,0 +1,202 @@
+"""Task 3.3: what "done" means for a chain in space: three angles a joint, three coordinates."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from canim import character
+from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
+from canim.checks.task_3_2 import (
+    JACOBIAN,
+    UPDATE,
+    accept_poses,
+    at_the_end,
+    forward,
+    jacobian,
+    reaching_mistakes,
+    reaching_parts,
+    steps_to,
+)
+
+
+def about(axis: int, angle: float) -> Floats:
+    """Return the matrix that turns by an angle about the axis with this number."""
+    c, s = np.cos(angle), np.sin(angle)
+    R = np.eye(3)
+    y, z = (axis + 1) % 3, (axis + 2) % 3
+    R[[y, y, z, z], [y, z, y, z]] = c, -s, s, c
+    return R
+
+
+def rotation(angles: Floats, order: tuple[int, ...] = (0, 1, 2), sign: int = 1) -> Floats:
+    """Return Rx Ry Rz, or another product; with another `sign` the one about y goes wrong."""
+    signs = np.array([1, sign, 1])
+    product: Floats = np.eye(3)
+    for axis in order:
+        product = product @ about(axis, signs[axis] * angles[axis])
+    return product
+
+
+def _wrong_rotation(turn: Callable[[Floats], Floats]) -> dict[str, Any]:
+    return {"rotation": turn}
+
+
+def _entry(index: tuple[int, ...], *args: Any) -> str:
+    return f"row {index[0]}, column {index[1]} of R"
+
+
+def _column(index: tuple[int, ...], *args: Any) -> str:
+    return f"{'xyz'[index[0]]} of column {index[1]}"
+
+
+def _unturned(R: Floats) -> bool:
+    return np.array_equal(R, np.eye(3))
+
+
+def _other_order(angles: Floats, offsets: Floats) -> Floats:
+    J = jacobian(angles, offsets)
+    columns: Floats = J.reshape(3, -1, 3).swapaxes(1, 2).reshape(J.shape)
+    return columns
+
+
+def _turn(*degrees: float) -> Case:
+    angles: Floats = np.radians(np.array(degrees, dtype=float))
+    return Case((angles,), f"angles {degrees}°")
+
+
+def _arm(seed: int, count: int, *goal: float) -> tuple[Floats, ...]:
+    """Return angles, links of different lengths and directions, and perhaps a goal."""
+    random = np.random.default_rng(seed)
+    angles, offsets = random.uniform(0.2, 0.9, (count, 3)), random.uniform(0.4, 1.0, (count, 3))
+    return (angles, offsets, np.array(goal)) if goal else (angles, offsets)
+
+
+PAGE = (
+    np.radians([[20.0, 10.0, 0.0], [-40.0, 30.0, 10.0], [-30.0, 20.0, 0.0]]),
+    np.array([[0.0, 0.0, 1.0]] * 3),
+)
+END = forward(*PAGE)[-1]
+ROTATION = "rotation"
+
+TASK = Task(
+    id="3.3",
+    name="inverse_kinematics_3D",
+    title="Reach for goals in space",
+    block="character",
+    writes="a rotation in space, a Jacobian and an update, about 15 lines",
+    minutes=60,
+    figure="Fig. 14",
+    questions=4,
+    builds_on=("3.1", "3.2"),
+    functions=(
+        Function(
+            "rotation",
+            "rotation(angles)",
+            Array(lambda angles: (3, 3), "a matrix of three rows and three columns"),
+            rotation,
+        ),
+        Function(
+            "jacobian",
+            "jacobian(angles, offsets)",
+            Array(
+                lambda angles, offsets: (3, angles.size),
+                "x, y and z in three rows, a column per angle",
+            ),
+            jacobian,
+        ),
+        Function("reach", "reach(angles, offsets, goal)", accept_poses, steps_to),
+    ),
+    parts=(
+        Part(
+            ROTATION,
+            lambda program, angles: program.rotation(angles),
+            (_turn(35, -50, 110), _turn(0, 30, 0), _turn(0, 0, 30)),
+            _entry,
+            unwritten=_unturned,
+        ),
+        *reaching_parts(
+            (Case(PAGE, "3 links"), Case(_arm(1, 2), "2 links")),
+            (
+                Case((*PAGE, np.array([1.2, -0.7, 0.9])), "3 links"),
+                Case(_arm(2, 2, 0.6, -1.1, 0.8), "2 links"),
+            ),
+            (
+                Case(at_the_end(*PAGE), "goal at the end effector"),
+                *(
+                    Case((*PAGE, END + way), "3 links")
+                    for way in np.array([[0.4, 0.4, -1.5], [-0.6, -0.7, -0.8], [-1.0, 0.0, 0.0]])
+                ),
+            ),
+            _column,
+        ),
+    ),
+    mistakes=(
+        Mistake(
+            "order turned round",
+            "This is Rz Ry Rx. Which of the three stands on the left?",
+            _wrong_rotation(lambda angles: rotation(angles, (2, 1, 0))),
+        ),
+        Mistake(
+            "y and z exchanged in the order",
+            "This is Rx Rz Ry. Which of the three stands in the middle?",
+            _wrong_rotation(lambda angles: rotation(angles, (0, 2, 1))),
+        ),
+        Mistake(
+            "x and y exchanged in the order",
+            "This is Ry Rx Rz. Which of the three stands on the left?",
+            _wrong_rotation(lambda angles: rotation(angles, (1, 0, 2))),
+        ),
+        Mistake(
+            "minus sign of y",
+            "About y it turns the wrong way: there the minus sign stands in the last row.",
+            _wrong_rotation(lambda angles: rotation(angles, sign=-1)),
+        ),
+        Mistake(
+            "about z clockwise",
+            "About z it turns clockwise. Which of the two sines has the minus sign?",
+            _wrong_rotation(lambda angles: rotation(angles * [1, 1, -1])),
+        ),
+        Mistake(
+            "degrees",
+            "np.cos and np.sin want radians, and the angles are in radians already.",
+            _wrong_rotation(lambda angles: rotation(np.radians(angles))),
+        ),
+        Mistake(
+            "only about x",
+            "This turns about x alone. R is a product of three rotations.",
+            _wrong_rotation(lambda angles: rotation(angles, (0,))),
+        ),
+        Mistake(
+            "about x left out",
+            "The rotation about x is missing in the product.",
+            _wrong_rotation(lambda angles: rotation(angles, (1, 2))),
+        ),
+        Mistake(
+            "about z left out",
+            "The rotation about z is missing in the product.",
+            _wrong_rotation(lambda angles: rotation(angles, (0, 1))),
+        ),
+        Mistake(
+            "columns in another order",
+            "The columns are in another order: first the three angles of joint 1.",
+            {"jacobian": _other_order},
+            parts=(JACOBIAN,),
+        ),
+        Mistake(
+            "change in another order",
+            "The change has other columns than J has: whose angle is the second of them?",
+            {"reach": lambda *args: steps_to(*args, shaped=lambda c: c.reshape(3, -1).T)},
+            parts=(UPDATE,),
+        ),
+        *reaching_mistakes(),
+    ),
+    canim_functions=(
+        character.jacobian_3d,
+        character.numeric_jacobian,
+        character.inverse_kinematics,
+        character.inverse_kinematics_batch,
+    ),
+)
