@@ -21,7 +21,7 @@ image_a, image_b, points_a, points_b = canim.data.toy_triangles(size=160)
 points_a, points_b = pick_points(image_a, image_b, points_a, points_b, click=click)
 points_a = canim.warping.add_frame_points(points_a, image_a.shape)
 points_b = canim.warping.add_frame_points(points_b, image_b.shape)
-triangles = canim.warping.triangulate(points_a, points_b)  # three numbers of points a row
+triangles = canim.warping.triangulate(points_a, points_b)  # each row: the numbers of 3 points
 hole = 255, 0, 255  # a loud colour, for pixels that stay empty
 
 # %%
@@ -205,8 +205,9 @@ for u in row:
 # Write the affine map, then send the pixels. Corners as columns and the weights are given.
 # An image is a table: ``image[v, u]`` is the pixel in row ``v`` and column ``u``, that is at
 # the point :math:`(u, v)`. ``np.linalg.inv(M)`` is the inverse of the matrix ``M``, and ``@``
-# multiplies matrices. ``int(np.floor(x + 0.5))`` is the whole number nearest to ``x``. The
-# program runs as it is: what is not written yet stays empty.
+# multiplies matrices. ``source[corners]`` are the three corners of a triangle, a point a row.
+# ``int(np.floor(x + 0.5))`` is the whole number nearest to ``x``. The program runs as it is:
+# what is not written yet stays empty.
 
 
 def columns(corners):
@@ -229,7 +230,7 @@ def warp_forward(image, source, target, triangles):
     for corners in progress(triangles):
         A = affine_map(source[corners], target[corners])
         to_weights = np.linalg.inv(columns(source[corners]))  # weights: to_weights @ [u, v, 1]
-        # TODO: inside: for each row v and column u, go on if no weight is below -1e-9
+        # TODO: inside: loop over each row v and column u; if no weight is below -1e-9:
         # TODO: place: A @ [u, v, 1] is x, y, 1; round x and y
         # TODO: colour: copy image[v, u], if the place is in the image
     return warped
@@ -248,8 +249,8 @@ canim.check("2.1", affine_map=affine_map, warp_forward=warp_forward)
 fig, axes = plt.subplots(2, 2, num="Yours", figsize=(6.4, 6.9))
 draw_triangulation(axes[0, 0], image_a, points_a, triangles)
 draw_triangulation(axes[0, 1], image_b, points_b, triangles)
-axes[1, 0].imshow(warp_forward(image_a, points_a, points_b, triangles))
-axes[1, 1].imshow(warp_forward(image_b, points_b, points_a, triangles))
+axes[1, 0].imshow(warp_forward(image_a, points_a, points_b, triangles), interpolation="nearest")
+axes[1, 1].imshow(warp_forward(image_b, points_b, points_a, triangles), interpolation="nearest")
 for ax, name in zip(axes.flat, ["image A", "image B", "A to B", "B to A"]):
     holes = np.sum(np.all(ax.images[0].get_array() == hole, axis=2))
     ax.set(title=f"{name}: {holes} holes")

@@ -5,8 +5,8 @@ Task 2.2: Ask where every pixel comes from
 ==========================================
 
 You bend a picture again, but turn the question round: not "where does this pixel go?" but
-"where does it come from?". Then no hole can be left. All programs that bend pictures do it
-in this way.
+"where does it come from?". Then no hole can be left. Most programs that bend pictures do
+it in this way.
 """
 
 import matplotlib.pyplot as plt
@@ -119,8 +119,9 @@ ax.text(f + 0.04, g / 2 + 0.05, "g", color="red")
 #    \mathbf{c}_\text{low} &= (1 - f)\,\mathbf{c}_{01} + f\,\mathbf{c}_{11} \\
 #    \mathbf{c} &= (1 - g)\,\mathbf{c}_\text{up} + g\,\mathbf{c}_\text{low}
 #
-# You know this mix: it is the straight line from a start to an end. The first index counts
-# columns, the second one rows. Look what it does to an edge:
+# You know this mix: it is the straight line from a start to an end. Here the first index counts
+# columns and the second one rows; in the program it is ``image[row, column]``. Look what the
+# mix does to an edge:
 
 nearest = warping.warp_backward(image_a, points_a, points_b, triangles, "nearest")
 bilinear_ = warping.warp_backward(image_a, points_a, points_b, triangles)
@@ -169,13 +170,16 @@ for ax, name, warped in [(axes[0], "nearest", nearest), (axes[1], "bilinear", bi
 # ---------
 # Write the bilinear mix, then ask every pixel. The pixel above and to the left is given; at
 # the right and lower rim of the image it is one further in, so that there are always four.
-# The map of Task 2.1 is given as well. The program runs as it is: what is not written yet
-# stays empty.
+# The map of Task 2.1 is given as well. The weights you calculate as there:
+# ``np.vstack([points.T, np.ones(3)])`` puts three ``points`` in columns, and its inverse times
+# :math:`(x, y, 1)` are the weights. The program runs as it is: what is not written yet stays
+# empty.
 
 
 def bilinear(image, u, v):
     """Return the colour of the image at (u, v), between the centres of its pixels."""
     height, width = image.shape[:2]
+    u, v = np.clip(u, 0, width - 1), np.clip(v, 0, height - 1)  # not outside: given
     column, row = min(int(u), width - 2), min(int(v), height - 2)  # above, to the left: given
     f, g = u - column, v - row
     colour = np.array(hole, dtype=float)
@@ -189,7 +193,7 @@ def warp_backward(image, source, target, triangles):
     height, width = image.shape[:2]
     for corners in progress(triangles):
         A = affine_transforms(source, target, [corners])[0]  # the map of Task 2.1: given
-        # TODO: inside: for each row y and column x, go on if (x, y) is in the target triangle
+        # TODO: inside: loop over each row y and column x; if (x, y) is in the target triangle:
         # TODO: place: where in the source does (x, y) come from?
         # TODO: colour: bilinear at this place
     return np.round(warped).astype(np.uint8)

@@ -40,15 +40,30 @@ def affine_map(source: Floats, target: Floats) -> Floats:
     return columns(target) @ np.linalg.inv(columns(source))
 
 
-def inside(corners: Floats, x: Any, y: Any, least: float = -EDGE) -> Any:
+def inside(
+    corners: Floats, x: Any, y: Any, least: float = -EDGE, enough: Callable[..., Any] = np.all
+) -> Any:
     """Tell for each pixel whether no weight is below `least`."""
     weights = np.linalg.inv(columns(corners)) @ [x.ravel(), y.ravel(), np.ones(x.size)]
-    return (weights >= least).all(axis=0).reshape(x.shape)
+    return enough(weights >= least, axis=0).reshape(x.shape)
+
+
+def not_all(large: Any, axis: int) -> Any:
+    """Tell for each pixel whether a weight is too small."""
+    return ~large.all(axis=axis)
 
 
 def up(numbers: Any) -> Any:
     """Return the nearest whole numbers, halves rounded up."""
     return np.floor(numbers + 0.5).astype(int)
+
+
+def _down(numbers: Floats) -> Any:
+    return np.floor(numbers).astype(int)
+
+
+def _next(numbers: Floats) -> Any:
+    return np.ceil(numbers).astype(int)
 
 
 def cut(numbers: Floats) -> Any:
@@ -65,9 +80,14 @@ def sent(
     round_to: Callable[[Floats], Any] = up,
     find_in: str = "source",
     least: float = -EDGE,
+    enough: Callable[..., Any] = np.all,
     make_map: Callable[[Floats, Floats], Floats] = affine_map,
+    weigh: str = "uv",
+    move: str = "uv",
     read: str = "vu",
     write: str = "yx",
+    bounds: str = "xy",
+    first: int = 0,
     rows: int = 0,
     cols: int = 0,
     swap_sizes: bool = False,
@@ -76,14 +96,21 @@ def sent(
     """Return the image warped forward, right or in one of the ways in which it goes wrong."""
     height, width = image.shape[:2]
     last = (width, height) if swap_sizes else (height, width)
-    v, u = np.mgrid[: min(last[0], height) - rows, : min(last[1], width) - cols]
+    v, u = np.mgrid[first : min(last[0], height) - rows, first : min(last[1], width) - cols]
     warped = np.full(image.shape, HOLE)
     for corners in triangles:
-        found = inside((source if find_in == "source" else target)[corners], u, v, least)
+        corners_found = (source if find_in == "source" else target)[corners]
+        found = inside(corners_found, *((u, v) if weigh == "uv" else (v, u)), least, enough)
         a, b = u[found], v[found]
-        x, y = round_to((make_map(source[corners], target[corners]) @ [a, b, 0 * a + 1])[:2])
+        point = [a, b, 0 * a + 1] if move == "uv" else [b, a, 0 * a + 1]
+        x, y = round_to((make_map(source[corners], target[corners]) @ point)[:2])
         stays = (x < width) & (y < height) & ((x >= 0) & (y >= 0) | wrap)
+        if bounds == "yx":
+            stays &= (x < height) & (y < width)
         a, b, x, y = a[stays], b[stays], x[stays], y[stays]
+        if write == "vu":
+            warped[b, a] = image[y, x]
+            continue
         colours = image[a, b] if read == "uv" else image[b, a]
         warped[(x, y) if write == "xy" else (y, x)] = colours
     return warped
@@ -195,6 +222,10 @@ def _forward(**change: Any) -> dict[str, Any]:
     return {"warp_forward": lambda *args: sent(*args, **change)}
 
 
+def _first_triangle(image: Floats, source: Floats, target: Floats, triangles: Any) -> Floats:
+    return sent(image, source, target, triangles[:1])
+
+
 def _triangles_of_the_source(image: Floats, source: Floats, target: Floats, _: Any) -> Floats:
     return sent(image, source, target, Delaunay(source).simplices)
 
@@ -284,6 +315,17 @@ TASK = Task(
             parts=(MAP,),
         ),
         Mistake(
+            "number by number",
+            "The star multiplies number by number. Which sign multiplies matrices?",
+            {"affine_map": lambda s, t: columns(t) * np.linalg.inv(columns(s))},
+            parts=(MAP,),
+        ),
+        Mistake(
+            "point to the left of the map",
+            "A column stands to the right of its matrix. Where does [u, v, 1] stand?",
+            _forward(make_map=lambda source, target: affine_map(source, target).T),
+        ),
+        Mistake(
             "pixels sent back",
             "The pixels move the wrong way. From where to where does A go?",
             _forward(make_map=lambda source, target: affine_map(target, source)),
@@ -292,6 +334,44 @@ TASK = Task(
             "decimals cut off",
             "Every place is moved up and to the left: int alone cuts the decimals off.",
             _forward(round_to=cut),
+        ),
+        Mistake(
+            "rounded down",
+            "Every place is moved up and to the left: floor alone rounds down.",
+            _forward(round_to=_down),
+        ),
+        Mistake(
+            "rounded up",
+            "Every place is moved down and to the right: ceil rounds up.",
+            _forward(round_to=_next),
+        ),
+        Mistake(
+            "one weight is enough",
+            "Pixels outside are sent as well. Look at the weights, and at how many you compare.",
+            _forward(enough=np.any),
+        ),
+        Mistake(
+            "outside instead of inside",
+            "The pixels outside are sent, and those inside are not.",
+            _forward(enough=not_all),
+        ),
+        Mistake(
+            "weights of another pixel",
+            "u is the column and v the row: which comes first where the weights are calculated?",
+            _forward(weigh="vu"),
+            parts=WARPS[1:],
+        ),
+        Mistake(
+            "place of another pixel",
+            "u is the column and v the row: which comes first where the place is calculated?",
+            _forward(move="vu"),
+            parts=WARPS[1:],
+        ),
+        Mistake(
+            "weights and place of another pixel",
+            "u is the column and v the row: which comes first in [u, v, 1]?",
+            _forward(weigh="vu", move="vu"),
+            parts=WARPS[1:],
         ),
         Mistake(
             "looked up in the target",
@@ -326,6 +406,33 @@ TASK = Task(
             "x and y exchanged",
             "Rows and columns are exchanged where you read and where you write.",
             _forward(read="uv", write="xy"),
+            parts=(PLACE, COLOUR),
+        ),
+        Mistake(
+            "fetched instead of sent",
+            "The pixel (u, v) is read at (u, v) and written at its place, not the other way round.",
+            _forward(write="vu"),
+        ),
+        Mistake(
+            "height and width exchanged where it ends",
+            "Is x below the width, and y below the height? A square image does not tell.",
+            _forward(bounds="yx"),
+        ),
+        Mistake(
+            "only the first triangle",
+            "Only the first triangle is done. Does return stand inside of the loop?",
+            {"warp_forward": _first_triangle},
+        ),
+        Mistake(
+            "first row and column left out",
+            "The first row and the first column are left out: counting starts at 0.",
+            _forward(first=1),
+            parts=(PLACE, COLOUR),
+        ),
+        Mistake(
+            "rim left out",
+            "The rim of the image is left out: loops over pixels go from 0 to the last.",
+            _forward(first=1, rows=1, cols=1),
             parts=(PLACE, COLOUR),
         ),
         Mistake(

@@ -26,6 +26,7 @@ from canim.checks.task_2_1 import (
     describe,
     inside,
     is_filled,
+    not_all,
     nothing,
     sent,
     shifted,
@@ -39,8 +40,9 @@ HALF = 0.5 + 1e-6  # the most that rounding changes a colour
 def mixed(image: Any, u: Any, v: Any, shares: Callable[..., Any] | None = None) -> Any:
     """Return the bilinear mix at each (u, v), or one with other shares of the four pixels."""
     height, width = image.shape[:2]
-    column = np.clip(np.floor(u).astype(int), 0, width - 2)
-    row = np.clip(np.floor(v).astype(int), 0, height - 2)
+    u, v = np.clip(u, 0, width - 1), np.clip(v, 0, height - 1)
+    column = np.minimum(u.astype(int), width - 2)
+    row = np.minimum(v.astype(int), height - 2)
     f, g = (u - column)[..., None], (v - row)[..., None]
     four = [image[row + j, column + i].astype(float) for j in (0, 1) for i in (0, 1)]
     if shares is None:
@@ -79,6 +81,10 @@ def asked(
     back: Callable[[Floats, Floats], Floats] = lambda source, target: affine_map(target, source),
     exchanged: bool = False,
     least: float = -EDGE,
+    enough: Callable[..., Any] = np.all,
+    weigh: str = "xy",
+    move: str = "xy",
+    first: int = 0,
     rows: int = 0,
     cols: int = 0,
     swap_sizes: bool = False,
@@ -87,12 +93,14 @@ def asked(
     """Return the image warped backward, right or in one of the ways in which it goes wrong."""
     height, width = image.shape[:2]
     last = (width, height) if swap_sizes else (height, width)
-    y, x = np.mgrid[: min(last[0], height) - rows, : min(last[1], width) - cols]
+    y, x = np.mgrid[first : min(last[0], height) - rows, first : min(last[1], width) - cols]
     warped = np.full(image.shape, HOLE)
     for corners in triangles:
-        found = inside((source if find_in == "source" else target)[corners], x, y, least)
+        corners_found = (source if find_in == "source" else target)[corners]
+        found = inside(corners_found, *((x, y) if weigh == "xy" else (y, x)), least, enough)
         a, b = x[found], y[found]
-        u, v = (back(source[corners], target[corners]) @ [a, b, 0 * a + 1])[:2]
+        point = [a, b, 0 * a + 1] if move == "xy" else [b, a, 0 * a + 1]
+        u, v = (back(source[corners], target[corners]) @ point)[:2]
         warped[(a, b) if exchanged else (b, a)] = read(image, u, v)
     return finish(warped)
 
@@ -162,11 +170,15 @@ def _rows_and_columns(image: Any, u: float, v: float) -> Any:
 
 
 def _backward(**change: Any) -> dict[str, Any]:
-    return {"warp_backward": lambda *args: asked(*args, **change)}
+    return {"warp_backward": lambda *args: asked(*args, **{"finish": np.round} | change)}
 
 
 def _triangles_of_the_source(image: Any, source: Floats, target: Floats, _: Any) -> Floats:
-    return asked(image, source, target, Delaunay(source).simplices)
+    return asked(image, source, target, Delaunay(source).simplices, finish=np.round)
+
+
+def _first_triangle(image: Any, source: Floats, target: Floats, triangles: Any) -> Floats:
+    return asked(image, source, target, triangles[:1], finish=np.round)
 
 
 def _still() -> tuple[Floats, Floats, Any]:
@@ -330,6 +342,50 @@ TASK = Task(
             _backward(back=affine_map),
         ),
         Mistake(
+            "point to the left of the map",
+            "A column stands to the right of its matrix. Where does [x, y, 1] stand?",
+            _backward(back=lambda source, target: affine_map(target, source).T),
+        ),
+        Mistake(
+            "one weight is enough",
+            "Pixels outside are filled as well. Look at the weights, and at how many you compare.",
+            _backward(enough=np.any),
+        ),
+        Mistake(
+            "outside instead of inside",
+            "The pixels outside are filled, and those inside are not.",
+            _backward(enough=not_all),
+        ),
+        Mistake(
+            "weights of another pixel",
+            "x is the column and y the row: which comes first where the weights are calculated?",
+            _backward(weigh="yx"),
+            parts=WARPS,
+        ),
+        Mistake(
+            "place of another pixel",
+            "x is the column and y the row: which comes first where the place is calculated?",
+            _backward(move="yx"),
+            parts=WARPS,
+        ),
+        Mistake(
+            "only the first triangle",
+            "Only the first triangle is done. Does return stand inside of the loop?",
+            {"warp_backward": _first_triangle},
+        ),
+        Mistake(
+            "first row and column left out",
+            "The first row and the first column are left out: counting starts at 0.",
+            _backward(first=1),
+            parts=(PLACE, COLOUR),
+        ),
+        Mistake(
+            "rim left out",
+            "The rim of the image is left out: loops over pixels go from 0 to the last.",
+            _backward(first=1, rows=1, cols=1),
+            parts=(PLACE, COLOUR),
+        ),
+        Mistake(
             "warped forward",
             "This sends pixels of the old image. Go through those of the new one.",
             {"warp_backward": sent},
@@ -348,7 +404,7 @@ TASK = Task(
         ),
         Mistake(
             "x and y exchanged",
-            "Where you write a pixel: does the row or the column come first?",
+            "Which comes first where you write a pixel, and which in [x, y, 1]?",
             _backward(exchanged=True),
             parts=(PLACE, COLOUR),
         ),

@@ -25,14 +25,6 @@ def _between(points_a: Floats, points_b: Floats, t: float) -> Floats:
     return points
 
 
-def _exact(image: Any) -> Any:
-    return image.astype(float)
-
-
-def _to_bytes(image: Any) -> Any:
-    return np.floor(image + 0.5)
-
-
 def _blended(a: Floats, b: Floats, t: float) -> Floats:
     blend: Floats = (1 - t) * a + t * b
     return blend
@@ -48,7 +40,8 @@ def morphed(
     *,
     between: Callable[[Floats, Floats, float], Floats] = _between,
     ends: Callable[[Floats, Floats, Floats], tuple[Floats, ...]] = lambda a, b, p: (a, p, b, p),
-    keep: Callable[[Any], Any] = _exact,
+    kind: type = float,
+    keep: Callable[[Any], Any] = np.asarray,
     blend: Callable[[Floats, Floats, float], Floats] = _blended,
 ) -> Floats:
     """Return the morph with decimals, right or in one of the ways in which it goes wrong.
@@ -57,9 +50,9 @@ def morphed(
     """
     points = between(points_a, points_b, t)
     from_a, to_a, from_b, to_b = ends(points_a, points_b, points)
-    a, b = image_a.astype(float), image_b.astype(float)
-    warped_a = keep(warping.warp_backward(a, from_a, to_a, triangles))
-    warped_b = keep(warping.warp_backward(b, from_b, to_b, triangles))
+    a, b = image_a.astype(kind), image_b.astype(kind)
+    warped_a = keep(warping.warp_backward(a, from_a, to_a, triangles)).astype(float)
+    warped_b = keep(warping.warp_backward(b, from_b, to_b, triangles)).astype(float)
     return blend(warped_a, warped_b, t)
 
 
@@ -114,7 +107,7 @@ def _byte_blend(a: Floats, b: Floats, t: float) -> Floats:
 
 
 def _changed(**change: Any) -> dict[str, Any]:
-    return {"morph": lambda *args: np.floor(morphed(*args, **change) + 0.5)}
+    return {"morph": lambda *args: np.round(morphed(*args, **change))}
 
 
 def _cut_off(*args: Any) -> Floats:
@@ -202,6 +195,17 @@ TASK = Task(
             parts=(BETWEEN,),
         ),
         Mistake(
+            "points rounded",
+            "Points may lie between the pixels: do not round them.",
+            {"points_between": lambda a, b, t: np.round(_between(a, b, t))},
+            parts=(BETWEEN,),
+        ),
+        Mistake(
+            "no shares",
+            "The two images are added in full. How large is the share of each?",
+            _changed(blend=lambda a, b, t: (a + b) % 256),
+        ),
+        Mistake(
             "shares exchanged",
             "The film runs backward in its colours: how large is the share of A at t = 0?",
             _changed(blend=lambda a, b, t: _blended(b, a, t)),
@@ -250,12 +254,12 @@ TASK = Task(
         Mistake(
             "warped images rounded",
             "The images are rounded before they are blended. Round only once, at the end.",
-            _changed(keep=_to_bytes),
+            _changed(keep=np.round),
         ),
         Mistake(
             "shares rounded",
             "Each share is rounded before the two are added. Round only once, at the end.",
-            _changed(blend=lambda a, b, t: _to_bytes((1 - t) * a) + _to_bytes(t * b)),
+            _changed(blend=lambda a, b, t: np.round((1 - t) * a) + np.round(t * b)),
         ),
         Mistake(
             "decimals cut off",
@@ -265,7 +269,7 @@ TASK = Task(
         Mistake(
             "difference of bytes",
             "A difference of two colours cannot be negative here. Use the images with decimals.",
-            _changed(keep=_to_bytes, blend=_byte_blend),
+            _changed(kind=np.uint8, blend=_byte_blend),
         ),
     ),
     canim_functions=(warping.morph, warping.morph_frames),

@@ -1,6 +1,7 @@
 def bilinear(image, u, v):
     """Return the colour of the image at (u, v), between the centres of its pixels."""
     height, width = image.shape[:2]
+    u, v = np.clip(u, 0, width - 1), np.clip(v, 0, height - 1)  # not outside: given
     column, row = min(int(u), width - 2), min(int(v), height - 2)  # above, to the left: given
     f, g = u - column, v - row
     upper = (1 - f) * image[row, column] + f * image[row, column + 1]
