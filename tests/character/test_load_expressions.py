@@ -41,6 +41,13 @@ def test_expressions_by_the_names_of_their_files(tmp_path):
         assert face.colors is None
 
 
+def test_alphabetical_order_whatever_the_folder_says(tmp_path):
+    names = list("hcxaqbtzmk")
+    path = folder(tmp_path, neutral=SQUARE, **dict.fromkeys(names, RAISED))
+    (path / "h.obj").rename(path / "h.OBJ")
+    assert list(load_expressions(path).expressions) == sorted(names)
+
+
 @pytest.mark.parametrize("name", ["with space", "é è ü 笑", "a#b"])
 def test_names_with_spaces_and_accents(tmp_path, name):
     face = load_expressions(folder(tmp_path / name, neutral=SQUARE, **{name: RAISED}))
@@ -175,6 +182,11 @@ def test_broken_lines(tmp_path, line, by, expected):
         rf"^folder: smile\.obj, line {number}, must be {expected}.*, but is '{re.escape(by)}'\.$"
     )
     refuses(folder(tmp_path, neutral=SQUARE, smile=SQUARE.replace(line, by)), match)
+
+
+def test_vertex_zero_is_none_though_more_vertices_follow(tmp_path):
+    text = SQUARE.replace("v 0 2 0\nf 1 2 3 4", "f 0 1 2\nv 0 2 0")
+    refuses(folder(tmp_path, neutral=text, smile=text), r"neutral\.obj, line 4, must be f and")
 
 
 @pytest.mark.parametrize(

@@ -10,8 +10,7 @@ __all__ = ["MIXES", "expression_paths", "face"]
 
 _FOLDER = Path(__file__).with_name("face")
 
-#: Weights of moods and of sounds, for `canim.character.Face.weights`: how much of each
-#: expression of `face` makes a happy, sad, surprised or angry face, or one that says A, O or M.
+# How much of each expression makes a mood, or a face that says A, O or M.
 MIXES: dict[str, dict[str, float]] = {
     "happy": {"smile_left": 0.9, "smile_right": 0.9, "squint": 0.4, "teeth": 0.25},
     "sad": {"frown": 0.8, "brows_up_inner": 1, "blink_left": 0.2, "blink_right": 0.2},
