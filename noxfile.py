@@ -186,6 +186,12 @@ def browser(session):
     session.run("pytest", "tests/site", *options, *session.posargs)
 
 
+@nox.session(default=False, venv_backend="none")
+def new_task(session):
+    """Write the files of a new task, to be filled in: -- 1.10 name "Title"."""
+    session.run(sys.executable, "docs/new_task.py", *session.posargs)
+
+
 @nox.session(default=False)
 def solutions(session):
     """Write the teacher's zip of completed starters."""

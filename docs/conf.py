@@ -84,7 +84,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "gallery",
     "filename_pattern": r"[\\/]task_",
     "subsection_order": [f"../gallery/{block}" for block in canim.checks.BLOCKS],
-    "within_subsection_order": "FileNameSortKey",
+    "within_subsection_order": "task_page.ByNumber",
     "parallel": 2,
     "reset_modules": ("matplotlib", "pictures.reset"),
     "image_scrapers": ("pictures.scrape",),

@@ -15,7 +15,7 @@ import hypothesis
 import pytest
 
 ROOT = Path(__file__).parents[1]
-sys.path.insert(0, str(ROOT / "docs/_ext"))
+sys.path[:0] = [str(ROOT / "docs/_ext"), str(ROOT / "docs")]
 os.environ["MPLBACKEND"] = "agg"
 # A busy machine makes any single example slow.
 hypothesis.settings.register_profile("canim", deadline=None)

@@ -84,5 +84,6 @@ if __name__ == "__main__":
     root = Path(__file__).parents[2]
     target = Path(sys.argv[1]) if len(sys.argv) > 1 else root / "dist/canim-solutions.zip"
     programs = completed(root)
-    pack(dict(programs), target)
-    print(f"{len(programs)} completed starters: {target}")
+    answers = (root / "tests/gallery/solutions/answers.md").read_text(encoding="utf-8")
+    pack({**programs, "answers.md": answers}, target)
+    print(f"{len(programs)} completed starters and the answers: {target}")

@@ -101,7 +101,12 @@ def release(root: Path) -> Release:
 
 def pages(root: Path) -> list[Page]:
     """Return all pages of the project in `root`, in the order of their tasks."""
-    return [read(path) for path in sorted((root / "gallery").glob("*/task_*.py"))]
+    return [read(path) for path in sorted((root / "gallery").glob("*/task_*.py"), key=number)]
+
+
+def number(path: Path) -> list[int]:
+    """Return the numbers in the name of a page: Task 1.10 comes after Task 1.9."""
+    return [int(digits) for digits in re.findall(r"\d+", path.name)]
 
 
 def read(path: Path) -> Page:

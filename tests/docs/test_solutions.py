@@ -1,9 +1,12 @@
 """Completed starters and the teacher's zip."""
 
+import re
 import zipfile
 
 import pytest
 import solutions
+
+from canim import checks
 
 PROGRAM = """import x
 
@@ -46,3 +49,13 @@ def test_the_zip_has_every_completed_starter_and_the_same_bytes_twice(tmp_path, 
             archive.read("task_1_1_plot_hermite_basis.py").decode()
             == (completed["task_1_1_plot_hermite_basis.py"])
         )
+
+
+def test_every_question_has_its_answer(root):
+    text = (root / "tests/gallery/solutions/answers.md").read_text(encoding="utf-8")
+    answered = dict(re.findall(r"^## Task (\S+)\n\n((?:\d\. .+\n)+)", text, re.M))
+    for task in checks.TASKS.values():
+        if task.id in answered:
+            numbers = re.findall(r"^(\d)\. ", answered[task.id], re.M)
+            assert numbers == [str(n) for n in range(1, task.questions + 1)], task.id
+    assert list(answered) == re.findall(r"^## Task (\S+)$", text, re.M)

@@ -33,6 +33,20 @@ def test_page_and_registry_agree(task, root):
 
 
 @BY_TASK
+def test_nothing_is_left_to_fill_in(task, root):
+    check = f"task_{task.id.replace('.', '_')}.py"
+    paths = [f"gallery/{task.block}/{task.file_name}", f"src/canim/checks/{check}"]
+    paths += [f"tests/gallery/solutions/{task.file_name}", f"tests/checks/test_{check}"]
+    texts = {path: root / path for path in paths}
+    left = [
+        path
+        for path in texts
+        if texts[path].exists() and "FILL IN" in texts[path].read_text("utf-8")
+    ]
+    assert left == []
+
+
+@BY_TASK
 def test_a_starter_is_short_and_says_what_to_write(task, root):
     text = starter.script(_page(task, root), starter.release(root))
     assert 30 <= sum(bool(line.strip()) for line in text.splitlines()) <= 60

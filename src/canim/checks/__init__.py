@@ -17,12 +17,20 @@ from canim.checks.task import BLOCKS, Task
 
 __all__ = ["BLOCKS", "TASKS", "Report", "Task", "check", "find", "run", "show"]
 
+
+def _number(task: Task) -> list[int]:
+    return [int(part) for part in task.id.split(".")]
+
+
 TASKS: dict[str, Task] = {
     task.id: task
-    for task in (
-        importlib.import_module(f"{__name__}.{module.name}").TASK
-        for module in sorted(pkgutil.iter_modules(__path__), key=lambda module: module.name)
-        if module.name.startswith("task_")
+    for task in sorted(
+        (
+            importlib.import_module(f"{__name__}.{module.name}").TASK
+            for module in pkgutil.iter_modules(__path__)
+            if module.name.startswith("task_")
+        ),
+        key=_number,
     )
 }
 

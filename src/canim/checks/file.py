@@ -158,7 +158,7 @@ def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
         and node.args
         and isinstance(node.args[0], ast.Constant)
     ]
-    named = re.search(r"task[_ -]?(\d)[_. -](\d)", path.name)
+    named = re.search(r"task[_ -]?(\d)[_. -](\d+)", path.name)
     for number in [*calls, *([f"{named[1]}.{named[2]}"] if named else [])]:
         if number in checks.TASKS:
             return checks.TASKS[str(number)]
