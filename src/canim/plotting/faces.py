@@ -177,7 +177,7 @@ def weight_sliders(
     face: Mesh,
     names: Sequence[str],
     blend: Callable[[Floats], ArrayLike],
-    weights: ArrayLike,
+    weights: ArrayLike = 0,
     *,
     room: float = 1.4,
 ) -> list[Slider]:
@@ -191,7 +191,7 @@ def weight_sliders(
         What stands beside each slider.
     blend : callable
         Returns the vertices for weights, shape (len(names),).
-    weights : array_like, shape (len(names),)
+    weights : array_like, shape (len(names),), or float
         The weights at the start.
     room : float
         As in `draw_face`.
@@ -229,7 +229,9 @@ def weight_sliders(
             2,
             valinit=weight,
         )
-        for k, (name, weight) in enumerate(zip(names, np.asarray(weights, float).tolist()))
+        for k, (name, weight) in enumerate(
+            zip(names, np.broadcast_to(np.asarray(weights, float), len(names)))
+        )
     ]
 
     def show(_: float = 0) -> None:

@@ -21,18 +21,31 @@ class Rendered(Artist):
         self._mesh = pyvista.PolyData.from_regular_faces(points, faces)
         self._mesh.point_data["colors"] = (255 * colors).round().astype(np.uint8)
         self._mesh.point_data.active_normals = normals
+        self._view: tuple[float, ...] = ()
+        self._picture: NDArray[np.uint8] | None = None
 
     def draw(self, renderer: Any) -> None:
         """Draw the picture, pixel for pixel."""
         axes: Any = self.axes
         box = np.round(axes.bbox.extents).astype(int)
-        size = box[2:] - box[:2]
-        picture = _picture(self._mesh, size, axes.get_xlim(), axes.get_ylim(), axes.get_facecolor())
-        renderer.draw_image(renderer.new_gc(), *box[:2], picture)
+        view = (*(box[2:] - box[:2]).tolist(), *axes.axis(), *axes.get_facecolor())
+        # A figure that is saved is drawn twice.
+        if view != self._view:
+            self._view, self._picture = view, _picture(self._mesh, *view)
+        renderer.draw_image(renderer.new_gc(), *box[:2], self._picture)
 
 
-def _picture(mesh: Any, size: Any, x: Any, y: Any, ground: Any) -> NDArray[np.uint8]:
-    """Return a picture with alpha, bottom row first, of what is within the limits x and y."""
+def _picture(
+    mesh: Any,
+    width: int,
+    height: int,
+    left: float,
+    right: float,
+    bottom: float,
+    top: float,
+    *ground: float,
+) -> NDArray[np.uint8]:
+    """Return a picture with alpha, bottom row first, of what is within the limits."""
     plotter = _plotter()
     actor = plotter.add_mesh(
         mesh,
@@ -48,13 +61,13 @@ def _picture(mesh: Any, size: Any, x: Any, y: Any, ground: Any) -> NDArray[np.ui
     )
     actor.prop.interpolation = "Phong"
     plotter.set_background(ground[:3])
-    if tuple(plotter.window_size) != tuple(size):
-        plotter.window_size = size.tolist()  # this renders, too
-    middle = (x[0] + x[1]) / 2, (y[0] + y[1]) / 2
+    if list(plotter.window_size) != [width, height]:
+        plotter.window_size = [width, height]  # this renders, too
+    middle = (left + right) / 2, (bottom + top) / 2
     far = float(np.abs(mesh.points).max())
     plotter.camera.position = (*middle, 2 * far)
     plotter.camera.focal_point = (*middle, 0)
-    plotter.camera.parallel_scale = (y[1] - y[0]) / 2
+    plotter.camera.parallel_scale = (top - bottom) / 2
     plotter.camera.clipping_range = (far / 2, 4 * far)
     plotter.render()
     picture: NDArray[np.uint8] = plotter.screenshot(return_img=True)
