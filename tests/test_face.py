@@ -8,7 +8,7 @@ import zlib
 import numpy as np
 import pytest
 
-from canim.character import delta_blendshape
+from canim.character import delta_blendshape, global_blendshape
 from canim.data import MIXES, expression_paths, face
 
 ONE_SIDE = [
@@ -121,6 +121,15 @@ def test_the_back_of_the_head_and_the_neck_stay(head):
     assert (head.shapes[:, back] == head.neutral[back]).all()
     everything = delta_blendshape(head.neutral, head.shapes, np.full(len(head.shapes), 2.0))
     np.testing.assert_allclose(everything[back], head.neutral[back], rtol=0, atol=1e-12 * 28)
+
+
+def test_weights_of_two_in_sum_double_the_head_but_not_with_deltas(head):
+    pair = np.stack([head.neutral, head.expressions["mouth_open"]])
+    box = np.ptp(head.neutral, axis=0)
+    grown = np.ptp(global_blendshape(pair, [1, 1]), axis=0)
+    np.testing.assert_allclose(grown, 2 * box, rtol=0.03)
+    same = np.ptp(delta_blendshape(head.neutral, pair, [1, 1]), axis=0)
+    np.testing.assert_allclose(same, box, rtol=0.03)
 
 
 def test_colors(head):

@@ -19,6 +19,7 @@ from canim._arguments import Floats, floats, points, real
 __all__ = ["Face", "delta_blendshape", "global_blendshape", "load_expressions"]
 
 Integers = NDArray[np.int64]
+Mixed = NDArray[np.float32 | np.float64]
 
 # So many coordinates of a frame, fewer of many frames, are mixed at once: they stay near the
 # processor while they are worked on.
@@ -27,7 +28,7 @@ _BLOCK = 65536
 _FIRST_FACE = re.compile(r"\n[ \t]*f\b")
 
 
-def global_blendshape(shapes: ArrayLike, weights: ArrayLike) -> Floats:
+def global_blendshape(shapes: ArrayLike, weights: ArrayLike) -> Mixed:
     r"""Mix whole shapes: each vertex is the weighted sum of where the shapes have it.
 
     .. math:: \mathbf{f} = \sum_k w_k\, \mathbf{b}_k
@@ -80,7 +81,7 @@ def global_blendshape(shapes: ArrayLike, weights: ArrayLike) -> Floats:
     return _mix(table, _weights(weights, table))
 
 
-def delta_blendshape(neutral: ArrayLike, shapes: ArrayLike, weights: ArrayLike) -> Floats:
+def delta_blendshape(neutral: ArrayLike, shapes: ArrayLike, weights: ArrayLike) -> Mixed:
     r"""Add to the neutral face the weighted differences of the shapes from it.
 
     .. math::
@@ -506,7 +507,7 @@ def _vertices(value: ArrayLike, name: str) -> Floats:
 
 
 def _triangles(value: ArrayLike, count: int) -> Integers:
-    array = np.array(value)
+    array = real(value, "faces")
     if array.ndim != 2 or array.shape[1] != 3 or len(array) == 0:
         raise ValueError(
             f"faces must hold the three corners of a triangle a row, shape (F, 3), "
