@@ -61,7 +61,7 @@ def global_blendshape(shapes: ArrayLike, weights: ArrayLike) -> Mixed:
     Notes
     -----
     Where the weights sum to s, what all shapes share appears s times as large, seen from the
-    origin. Theory: Task 3.4.
+    origin. Theory: :ref:`Task 3.4 <task-3-4>`.
 
     References
     ----------
@@ -120,7 +120,7 @@ def delta_blendshape(neutral: ArrayLike, shapes: ArrayLike, weights: ArrayLike) 
     Notes
     -----
     A vertex that no expression moves stays where it is, whatever the weights are. Theory:
-    Task 3.5.
+    :ref:`Task 3.5 <task-3-5>`.
 
     References
     ----------
@@ -184,7 +184,7 @@ class Face:
     Notes
     -----
     Vertex i is the same spot of the skin in every shape: the shapes have one topology.
-    Theory: Task 3.4.
+    Theory: :ref:`Task 3.4 <task-3-4>`.
 
     References
     ----------
@@ -311,7 +311,7 @@ def load_expressions(folder: str | os.PathLike[str]) -> Face:
     vertices (``v x y z``, with colours ``v x y z r g b``) and faces (``f``) are read; texture
     coordinates, normals, materials and groups are passed over.
 
-    Theory: Task 3.4.
+    Theory: :ref:`Task 3.4 <task-3-4>`.
 
     References
     ----------
