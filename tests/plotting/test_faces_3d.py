@@ -3,11 +3,10 @@
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+import pyvista  # noqa: F401  (to fail here and clearly where it is missing)
 import trimesh
 
 from canim.plotting import draw_face, faces
-
-pytest.importorskip("pyvista")
 
 BALL = trimesh.creation.icosphere(subdivisions=2)
 COLORS = (BALL.vertices + 1) / 2
