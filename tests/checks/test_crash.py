@@ -11,6 +11,8 @@ PROGRAMS = {
     "x = unknown": "The name unknown is not known here.",
     "def f():\n    print(x)\n    x = 1\nf()": "The name x is used before it gets a value.",
     "[1, 2][2]": "An index is too large",
+    "import numpy as np\nnp.zeros(3)[-4]": "An index lies before the first one",
+    "import numpy as np\nint(np.nan)": "A number here is nan",
     "x = [1, 2]\nx[0.5]": "A list takes one whole number as index",
     "import numpy as np\nnp.zeros(3)[0.5]": "An index must be a whole number",
     "import numpy as np\nnp.zeros(3)[0, 1]": "too many numbers between these square brackets",
