@@ -136,7 +136,8 @@ def docs_live(session):
 def doctest(session):
     """Run the examples of every docstring, of the documentation and of README.md."""
     install(session, "tests")
-    texts = [*Path().glob("*.md"), *Path("docs").glob("*.md"), *Path("docs/course").glob("*.md")]
+    folders = [Path(), Path("docs"), Path("docs/course"), Path("docs/students")]
+    texts = [path for folder in folders for path in folder.glob("*.md")]
     session.run(
         *["pytest", "--doctest-modules", "--doctest-glob=*.md", *session.posargs],
         *["--ignore-glob=*/canim/starters/*", "--ignore-glob=*/faces_3d.py"],

@@ -24,10 +24,12 @@ extensions = [
     # ours
     "formulas",
     "pictures",
+    "notebooks",
     "freshness",
     "search_index",
     "task_page",
     "task_cards",
+    "words",
     "downloads",
     "page_head",
     "styles",
@@ -67,7 +69,11 @@ pygments_dark_style = "a11y-high-contrast-dark"
 
 # -- Text ------------------------------------------------------------------
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
-nb_execution_mode = "off"
+nb_execution_mode = "force"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+nb_output_stderr = "remove-warn"
+nb_merge_streams = True
 bibtex_bibfiles = ["references.bib"]
 bibtex_reference_style = "author_year"
 copybutton_exclude = ".linenos, .gp, .go"

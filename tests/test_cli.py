@@ -98,6 +98,14 @@ def test_the_installed_command_gives_the_exit_code():
     assert ran.returncode == 0
 
 
+def test_the_package_is_the_command_where_the_terminal_does_not_find_it():
+    write("my.py", DONE.replace("hermite_basis(t", "x"))
+    command = [sys.executable, "-m", "canim", "check", "my.py"]
+    ran = subprocess.run(command, capture_output=True, check=False, timeout=60)
+    assert ran.returncode == 0
+    assert b"All checks of Task 1.1 pass." in ran.stdout
+
+
 def test_check_hint_shows_the_hint_and_how_to_get_it(capsys):
     write(
         "task_1_1.py",

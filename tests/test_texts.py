@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-TEXTS = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("docs/course/**/*.md")]
+TEXTS = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("docs/[cs]*/**/*.md")]
 BLOCK = re.compile(r"^```(?:\{code-block\} )?(python|pycon)\n(.*?)^```", re.M | re.S)
 
 

@@ -66,6 +66,30 @@ class Start(SphinxDirective):
         return [nodes.raw("", f'<p class="buttons">{links}</p>', format="html")]
 
 
+class Package(SphinxDirective):
+    """`.. package::` puts a button with the wheel."""
+
+    def run(self):
+        up = "../" * self.env.docname.count("/")
+        button = (
+            f'<a href="{up}wheels/{escape(_wheel().name)}" class="button" download>'
+            "The package canim <span>(.whl)</span></a>"
+        )
+        return [nodes.raw("", f'<p class="buttons">{button}</p>', format="html")]
+
+
+class Install(SphinxDirective):
+    """`.. install:: py` shows what to type in the folder of the wheel; its content comes first."""
+
+    required_arguments = 1
+    has_content = True
+
+    def run(self):
+        lines = [*self.content, f"{self.arguments[0]} -m pip install {_wheel().name}"]
+        text = "\n".join(lines)
+        return [nodes.literal_block(text, text, language="text")]
+
+
 def _hand_out(app, exception):
     if exception or app.builder.format != "html":
         return
@@ -93,6 +117,8 @@ def _emptied(folder):
 def setup(app):
     app.add_config_value("install_line", "", "env", types=str)
     app.add_directive("start", Start)
+    app.add_directive("package", Package)
+    app.add_directive("install", Install)
     app.connect("config-inited", _say_how_to_install)
     app.connect("build-finished", _hand_out)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -57,8 +57,8 @@ def scrape(block, block_vars, gallery_conf):
     from PIL import Image
 
     texts = {"Picture": deque(), "Film": deque(), "GIF": deque()}
-    for kind, text in COMMENT.findall(block.content + "\n"):
-        texts[kind].append(" ".join(re.sub(r"^# ?", "", text, flags=re.M).split()))
+    for kind, text in comments(block.content):
+        texts[kind].append(text)
     variables = block_vars["example_globals"].values()
     # By the figure, not by its number: an animation of an earlier block is still a variable.
     films = {v._fig: v for v in variables if isinstance(v, Animation)}
@@ -74,7 +74,7 @@ def scrape(block, block_vars, gallery_conf):
             image = _drawn(figure)
         if _is_photograph(image):
             path = path.with_suffix(".webp")
-        _save(image, path)
+        save(image, path)
         if path.stem.endswith("_001"):
             _save_thumb(image, path)
         alt = texts[kind].popleft() if texts[kind] else ""
@@ -88,6 +88,14 @@ def scrape(block, block_vars, gallery_conf):
             rst.append(_shown("GIF", path, texts["GIF"].popleft(), image.size, gallery_conf))
     rst += [f".. {kind.lower()}::\n   :alt: {text}\n" for kind in texts for text in texts[kind]]
     return "\n\n".join(rst)
+
+
+def comments(code):
+    """Return kind and text of every comment that says what is to be seen."""
+    return [
+        (kind, " ".join(re.sub(r"^# ?", "", text, flags=re.M).split()))
+        for kind, text in COMMENT.findall(code + "\n")
+    ]
 
 
 def _shown(kind, path, alt, size, gallery_conf):
@@ -116,7 +124,7 @@ def _save_thumb(image, path):
     folder = path.parent / "thumb"
     folder.mkdir(exist_ok=True)
     size = THUMB_WIDTH, round(image.height * THUMB_WIDTH / image.width)
-    _save(image.resize(size, Image.Resampling.LANCZOS), folder / f"{path.stem}_thumb{path.suffix}")
+    save(image.resize(size, Image.Resampling.LANCZOS), folder / f"{path.stem}_thumb{path.suffix}")
 
 
 def _is_photograph(image):
@@ -135,7 +143,7 @@ def _error(image, other):
     return sum(ImageStat.Stat(ImageChops.difference(image, other.convert("RGB"))).sum2)
 
 
-def _save(image, path):
+def save(image, path):
     if path.suffix == ".webp":
         image.save(path, quality=WEBP_QUALITY)
     else:

@@ -64,7 +64,7 @@ def _arrange(app, doctree):
         logger.warning("no task of canim.checks has this page", location=docname)
         return
     for code in list(doctree.findall(nodes.literal_block)):
-        _clean(code)
+        clean(code)
     _fold_code(page)
     first = next(i for i, node in enumerate(page) if not _is_introduction(node))
     page.insert(first, _card(app, task, docname))
@@ -75,7 +75,8 @@ def _is_introduction(node):
     return isinstance(node, nodes.title | nodes.paragraph | nodes.Invisible)
 
 
-def _clean(code):
+def clean(code):
+    """Take comments that are meant for the site out of a code block."""
     text = FOR_THE_SITE.sub("", code.astext() + "\n").strip("\n")
     code.rawsource = text
     code.children = []

@@ -150,7 +150,7 @@ def test_nearly_flat_drawing_has_a_palette(tmp_path):
     ax.imshow(canim.data.toy_triangles()[0])
     image = pictures._drawn(figure)
     assert not pictures._is_photograph(image)
-    pictures._save(image, tmp_path / "toy.png")
+    pictures.save(image, tmp_path / "toy.png")
     with Image.open(tmp_path / "toy.png") as small:
         assert small.mode == "P"
         difference = ImageChops.difference(image, small.convert("RGB"))
