@@ -22,7 +22,7 @@ PAGE = HERE.parent / "docs/performance.md"
 MARK = "% Below this line nox -s bench writes.\n"
 VERSIONS = (
     *("numpy", "scipy", "pillow"),
-    *("bezier", "opencv-python-headless", "scikit-image", "svgpathtools"),
+    *("bezier", "ikpy", "opencv-python-headless", "pin", "scikit-image", "svgpathtools"),
 )
 
 

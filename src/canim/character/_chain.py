@@ -68,19 +68,24 @@ def flat_rotations(angles: Floats) -> Floats:
 
 def rotations(angles: Floats) -> Floats:
     """Return for every joint Rx·Ry·Rz: (..., 3) to (..., 3, 3)."""
-    a, b, c = np.moveaxis(np.cos(angles), -1, 0)
-    sa, sb, sc = np.moveaxis(np.sin(angles), -1, 0)
-    rows = [
-        *(b * c, -b * sc, sb),
-        *(a * sc + sa * sb * c, a * c - sa * sb * sc, -sa * b),
-        *(sa * sc - a * sb * c, sa * c + a * sb * sc, a * b),
-    ]
-    return np.stack(rows, axis=-1).reshape(*angles.shape, 3)
+    cosine, sine = np.cos(angles), np.sin(angles)
+    a, b, c = cosine[..., 0, None], cosine[..., 1], cosine[..., 2]
+    sa, sb, sc = sine[..., 0, None], sine[..., 1], sine[..., 2]
+    # The rows of Ry·Rz; Rx mixes the second and the third.
+    result = np.empty((*angles.shape, 3))
+    result[..., 0, 0], result[..., 0, 1], result[..., 0, 2] = b * c, -b * sc, sb
+    result[..., 1, 0], result[..., 1, 1], result[..., 1, 2] = sc, c, 0
+    result[..., 2, 0], result[..., 2, 1], result[..., 2, 2] = -sb * c, sb * sc, b
+    y, z = result[..., 1, :], result[..., 2, :]
+    result[..., 1, :], result[..., 2, :] = a * y - sa * z, sa * y + a * z
+    return result
 
 
 def accumulated(rotations: Floats) -> Floats:
-    """Multiply the rotations along the chain: (..., N, 3, 3), the same shape."""
-    result = rotations.copy()
-    for k in range(1, result.shape[-3]):
-        np.matmul(result[..., k - 1, :, :], rotations[..., k, :, :], out=result[..., k, :, :])
+    """Return the products along the chain, (..., N + 1, 3, 3); the first is the identity."""
+    *goals, count, _, _ = rotations.shape
+    result = np.empty((*goals, count + 1, 3, 3))
+    result[..., 0, :, :] = np.eye(3)
+    for k in range(count):
+        np.matmul(result[..., k, :, :], rotations[..., k, :, :], out=result[..., k + 1, :, :])
     return result

@@ -1,4 +1,4 @@
-"""One iteration of each way to bring end effectors to their goals, for many chains at once."""
+"""One iteration of each way to bring end effectors to their goals, and what helps them all."""
 
 from __future__ import annotations
 
@@ -9,62 +9,61 @@ import numpy as np
 from canim._arguments import Floats
 from canim.character._poses import Chain, Pose, norm, turned, unit
 
-Step = Callable[[Chain, Pose, Floats], Floats]
+# Every step returns the next angles.
+Step = Callable[[Chain, Pose], Floats]
 
-# The most that an angle turns in one step along a Jacobian: a little below 0.5 radians, which
-# no angle may exceed from one picture of a film to the next.
-TURN = 0.49
+# The most that an angle turns in one step along a Jacobian, in radians.
+_TURN = 0.49
 
-# The farthest, in lengths of the chain, that such a step looks ahead.
+# The farthest that such a step looks ahead, in lengths of the chain.
 _AHEAD = 0.25
 
-# Halving an interval so often leaves what a float cannot tell apart.
-_HALVINGS = 52
+# So little damping stands for the pseudoinverse where a pose is singular.
+_TRACE = 1e-9
+
+# How often `bend` halves its interval, and how often it draws a straight line after that.
+_HALVINGS = 10
+_LINES = 3
 
 
-def pseudoinverse(chain: Chain, pose: Pose, goals: Floats) -> Floats:
+def pseudoinverse(chain: Chain, pose: Pose) -> Floats:
     """Follow the pseudoinverse of the Jacobian."""
-    return _follow_jacobian(chain, pose, goals, 0)
+    return _follow_jacobian(chain, pose, 0)
 
 
-def damped(chain: Chain, pose: Pose, goals: Floats) -> Floats:
+def damped(chain: Chain, pose: Pose) -> Floats:
     """Follow the Jacobian with damped least squares, the less damped the nearer the goal."""
-    return _follow_jacobian(chain, pose, goals, 0.02)
+    return _follow_jacobian(chain, pose, 0.02)
 
 
-def _follow_jacobian(chain: Chain, pose: Pose, goals: Floats, damping: float) -> Floats:
-    error = goals - pose.joints[:, -1]
-    error *= np.minimum(1, _AHEAD / norm(error))[:, None]
-    jacobian = chain.jacobian(pose)
-    square = jacobian @ jacobian.swapaxes(1, 2)
-    diagonal = np.einsum("gii->gi", square)
-    # A trace of damping stands for the pseudoinverse where a pose is singular.
-    diagonal += (1e-9 * diagonal.sum(axis=1) + damping * norm(error))[:, None]
-    weights = np.linalg.solve(square, error[:, :, None])
-    turns = (jacobian.swapaxes(1, 2) @ weights)[:, :, 0]
-    turns *= (TURN / np.maximum(np.abs(turns).max(axis=1), TURN))[:, None]
+def _follow_jacobian(chain: Chain, pose: Pose, damping: float) -> Floats:
+    ahead = np.minimum(pose.distance, _AHEAD)
+    way = pose.way * (ahead / pose.distance)[:, None]
+    turns = chain.least_turns(pose, way, damping * ahead + _TRACE)
+    most = np.maximum.reduce(np.abs(turns), axis=1, keepdims=True)
+    turns *= _TURN / np.maximum(most, _TURN)
     return pose.angles + turns.reshape(pose.angles.shape)
 
 
-def ccd(chain: Chain, pose: Pose, goals: Floats) -> Floats:
+def ccd(chain: Chain, pose: Pose) -> Floats:
     """Turn one angle after another, from the last, to where the goal is nearest."""
     effector = pose.joints[:, -1]
-    angles = pose.angles.reshape(len(goals), -1).copy()
-    parts = angles.shape[1] // len(chain.offsets)
+    angles = pose.angles.reshape(len(effector), -1).copy()
+    parts = angles.shape[1] // len(chain.lengths)
     for k in reversed(range(angles.shape[1])):
         radius, tangent = chain.circle(pose, k, effector)
-        way = goals - pose.joints[:, k // parts]
+        way = pose.goals - pose.joints[:, k // parts]
         turn = np.arctan2((tangent * way).sum(axis=1), (radius * way).sum(axis=1))
         angles[:, k] += turn
         effector = effector + (np.cos(turn) - 1)[:, None] * radius + np.sin(turn)[:, None] * tangent
     return angles.reshape(pose.angles.shape)
 
 
-def fabrik(chain: Chain, pose: Pose, goals: Floats) -> Floats:
+def fabrik(chain: Chain, pose: Pose) -> Floats:
     """Pull the joints after the end effector to the goal, then back to the root."""
     joints = pose.joints.copy()
     links = np.diff(joints, axis=1) / chain.lengths[:, None]
-    joints[:, -1] = goals
+    joints[:, -1] = pose.goals
     for k in reversed(range(links.shape[1])):
         direction = unit(joints[:, k + 1] - joints[:, k], links[:, k])
         joints[:, k] = joints[:, k + 1] - chain.lengths[k] * direction
@@ -75,38 +74,46 @@ def fabrik(chain: Chain, pose: Pose, goals: Floats) -> Floats:
     return chain.aimed(pose.angles, links)
 
 
-def point(chain: Chain, pose: Pose, goals: Floats) -> Floats:
-    """Come as close as can be to goals out of reach: straighten, or fold, along their direction."""
-    distance = norm(goals)
-    along = unit(goals, unit(pose.joints[:, -1], chain.directions[0]))
-    return chain.extreme(pose.angles, along, distance > (1 + chain.inner) / 2)
-
-
-def bend(chain: Chain, pose: Pose, goals: Floats) -> Floats:
-    """Bend the whole chain, until it is as long as the goal is far, and turn it there.
-
-    On the way to the straight pose, or to the folded one, the distance between root and end
-    effector takes every value in between; halving finds the right one.
-    """
-    distance = norm(goals)
-    longer = distance > norm(pose.joints[:, -1])
-    along = unit(goals, chain.directions[0])
-    shape = (-1, *[1] * (pose.angles.ndim - 1))
-    way = chain.extreme(pose.angles, along, longer) - pose.angles
-    low, high = np.zeros(len(goals)), np.ones(len(goals))
-    for _ in range(_HALVINGS):
-        share = (low + high) / 2
-        bent = chain.pose(pose.angles + share.reshape(shape) * way)
-        beyond = (norm(bent.joints[:, -1]) < distance) != longer
-        low, high = np.where(beyond, low, share), np.where(beyond, share, high)
-    effector = unit(bent.joints[:, -1], along)
-    links = np.diff(bent.joints, axis=1) / chain.lengths[:, None]
-    return chain.aimed(bent.angles, turned(links, effector, along))
-
-
 METHODS: dict[str, Step] = {
     "pseudoinverse": pseudoinverse,
     "damped": damped,
     "ccd": ccd,
     "fabrik": fabrik,
 }
+
+
+def point(chain: Chain, pose: Pose) -> Floats:
+    """Come as close as can be to goals out of reach: straighten or fold along their direction."""
+    along = unit(pose.goals, unit(pose.joints[:, -1], chain.directions[0]))
+    return chain.extreme(pose.angles, along, norm(pose.goals) > (1 + chain.inner) / 2)
+
+
+def bend(chain: Chain, pose: Pose) -> Floats:
+    """Bend the whole chain until it reaches as far as the goal, and turn it there.
+
+    On the way to the straight pose, or to the folded one, the distance between root and end
+    effector takes every value in between; halving, then straight lines, find the right one.
+    """
+    reach = norm(pose.goals)
+    along = unit(pose.goals, chain.directions[0])
+    shorter = norm(pose.joints[:, -1]) < reach
+    turn = chain.extreme(pose.angles, along, shorter) - pose.angles
+
+    def at(share: Floats) -> tuple[Pose, Floats]:
+        """Return the poses at a share of the turn, and how much too far they reach."""
+        angles = pose.angles + share.reshape(-1, *[1] * (turn.ndim - 1)) * turn
+        bent = chain.pose(angles, pose.goals)
+        return bent, norm(bent.joints[:, -1]) - reach
+
+    low, high = np.zeros_like(reach), np.ones_like(reach)
+    above, below = at(low)[1], at(high)[1]
+    for count in range(_HALVINGS + _LINES):
+        fall = np.where(above == below, 1, above - below)
+        part = 0.5 if count < _HALVINGS else above / fall
+        middle = low + part * (high - low)
+        bent, excess = at(middle)
+        beyond = (excess < 0) != shorter
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+        above, below = np.where(beyond, above, excess), np.where(beyond, excess, below)
+    links = np.diff(bent.joints, axis=1) / chain.lengths[:, None]
+    return chain.aimed(bent.angles, turned(links, unit(bent.joints[:, -1], along), along))

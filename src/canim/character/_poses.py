@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,17 +16,26 @@ from numpy.typing import NDArray
 from canim._arguments import Floats
 from canim.character._chain import accumulated, rotations
 
+Truths = NDArray[np.bool_]
 
-@dataclass
-class Pose:
-    """Angles (G, N) or (G, N, 3), joints (G, N + 1, d), in space also axes (G, 3, N, 3)."""
 
-    angles: Floats
-    joints: Floats
-    axes: Floats
+class Pose(NamedTuple):
+    """Chains that have been bent, and what is left to their goals.
 
-    def __getitem__(self, chosen: NDArray[np.bool_]) -> Pose:
-        return Pose(self.angles[chosen], self.joints[chosen], self.axes[chosen])
+    Frames are what else the pose has shown: in the plane the joints as complex numbers, in space
+    the accumulated rotations (G, N + 1, 3, 3).
+    """
+
+    angles: Floats  # (G, N) or (G, N, 3)
+    joints: Floats  # (G, N + 1, d)
+    frames: NDArray[Any]
+    goals: Floats  # (G, d)
+    way: Floats  # (G, d)
+    distance: Floats  # (G,)
+
+    def only(self, chosen: Truths) -> Pose:
+        """Return the poses of some goals."""
+        return Pose(*(values[chosen] for values in self))
 
 
 class Chain(ABC):
@@ -35,25 +44,14 @@ class Chain(ABC):
     def __init__(self, lengths: Floats, directions: Floats) -> None:
         self.lengths = lengths
         self.directions = directions
-        self.offsets = lengths[:, None] * directions
+        # The distance from the root that the end effector cannot fall below.
         self.inner = max(0.0, 2 * float(lengths.max()) - 1)
 
-    def extreme(self, angles: Floats, along: Floats, far: NDArray[np.bool_]) -> Floats:
-        """Return the angles of the pose that ends farthest along (G, d) units, or nearest."""
-        directions = np.where(far[:, None, None], self.straight(along), self.folded(along))
-        return self.aimed(angles, directions)
-
-    @abstractmethod
-    def pose(self, angles: Floats) -> Pose:
+    def pose(self, angles: Floats, goals: Floats) -> Pose:
         """Bend the chains."""
-
-    @abstractmethod
-    def jacobian(self, pose: Pose) -> Floats:
-        """Return how the end effectors move with every angle, (G, d, n)."""
-
-    @abstractmethod
-    def circle(self, pose: Pose, k: int, effector: Floats) -> tuple[Floats, Floats]:
-        """Return radius and tangent of the circle of the end effectors when angle k turns."""
+        joints, frames = self.bent(angles)
+        way = goals - joints[:, -1]
+        return Pose(angles, joints, frames, goals, way, norm(way))
 
     def straight(self, along: Floats) -> Floats:
         """Return the directions (G, N, d) of a pose that leads straight along (G, d) units."""
@@ -68,17 +66,35 @@ class Chain(ABC):
         ends = self.lengths.cumsum()
         middle = int(np.searchsorted(ends, 0.5))
         b = self.lengths[middle]
-        a = ends[middle] - b
-        c = 1 - ends[middle]
+        a, c = ends[middle] - b, 1 - ends[middle]
+        # Where the height on the middle side stands, and how long it is (Heron).
+        foot = (a**2 + b**2 - c**2) / (2 * b)
+        height = math.sqrt(max(0.0, (0.5 - a) * (0.5 - b) * (0.5 - c) / 2)) * 2 / b
+        across = height * square_to(along)
         directions = self.straight(along)
-        for side, here, opposite, sign in (
-            (slice(middle), a, c, 1),
-            (slice(middle + 1, None), c, a, -1),
-        ):
-            cosine = min(1.0, (here**2 + b**2 - opposite**2) / (2 * here * b)) if here > 0 else 1.0
-            sine = sign * math.sqrt(1 - cosine**2)
-            directions[:, side] = -(cosine * along + sine * square_to(along))[:, None]
+        directions[:, :middle] = unit(-foot * along - across, along)[:, None]
+        directions[:, middle + 1 :] = unit((foot - b) * along + across, along)[:, None]
         return directions
+
+    def extreme(self, angles: Floats, along: Floats, far: Truths) -> Floats:
+        """Return the angles of the pose that ends farthest along (G, d) units, or nearest."""
+        directions = np.where(far[:, None, None], self.straight(along), self.folded(along))
+        return self.aimed(angles, directions)
+
+    @abstractmethod
+    def bent(self, angles: Floats) -> tuple[Floats, NDArray[Any]]:
+        """Return the joints and the frames."""
+
+    @abstractmethod
+    def least_turns(self, pose: Pose, way: Floats, damping: Floats) -> Floats:
+        r"""Return the damped least squares :math:`J^T (J J^T + \lambda^2 I)^{-1} e`.
+
+        The ways e are (G, d), the dampings :math:`\lambda^2` are (G,), the turns (G, n).
+        """
+
+    @abstractmethod
+    def circle(self, pose: Pose, k: int, effector: Floats) -> tuple[Floats, Floats]:
+        """Return radius and tangent of the circle of the end effectors when angle k turns."""
 
     @abstractmethod
     def aimed(self, angles: Floats, directions: Floats) -> Floats:
@@ -88,22 +104,33 @@ class Chain(ABC):
 class Flat(Chain):
     """Chains in the plane, one angle a joint."""
 
-    def pose(self, angles: Floats) -> Pose:
-        joints = np.zeros((len(angles), len(self.offsets) + 1), dtype=complex)
-        links = np.exp(1j * angles.cumsum(axis=1)) * as_complex(self.offsets)
-        links.cumsum(axis=1, out=joints[:, 1:])
-        return Pose(angles, joints.view(float).reshape(*joints.shape, 2), angles)
+    def __init__(self, lengths: Floats, directions: Floats) -> None:
+        super().__init__(lengths, directions)
+        self.turns = as_complex(directions)
+        self.links = lengths * self.turns
 
-    def jacobian(self, pose: Pose) -> Floats:
-        arms = pose.joints[:, -1:] - pose.joints[:, :-1]
-        return np.stack([-arms[..., 1], arms[..., 0]], axis=1)
+    def bent(self, angles: Floats) -> tuple[Floats, NDArray[Any]]:
+        links = np.exp(1j * angles.cumsum(axis=1)) * self.links
+        joints = np.zeros((len(links), links.shape[1] + 1), dtype=complex)
+        links.cumsum(axis=1, out=joints[:, 1:])
+        return joints.view(float).reshape(*joints.shape, 2), joints
+
+    def least_turns(self, pose: Pose, way: Floats, damping: Floats) -> Floats:
+        # As complex numbers the columns of J are c, and J Jᵀ w is a w + b w̄.
+        c = 1j * (pose.frames[:, -1:] - pose.frames[:, :-1])
+        a = np.einsum("gn,gn->g", c, c.conj()).real / 2 + damping
+        b = np.einsum("gn,gn->g", c, c) / 2
+        e = as_complex(way)
+        w = (a * e - b * e.conj()) / (a * a - (b * b.conj()).real)
+        turns: Floats = (c.conj() * w[:, None]).real
+        return turns
 
     def circle(self, pose: Pose, k: int, effector: Floats) -> tuple[Floats, Floats]:
         arm = effector - pose.joints[:, k]
         return arm, arm[:, ::-1] * (-1, 1)
 
     def aimed(self, angles: Floats, directions: Floats) -> Floats:
-        turns = as_complex(directions) / as_complex(self.directions)
+        turns = as_complex(directions) / self.turns
         turns[:, 1:] /= turns[:, :-1].copy()
         return unwrapped(np.angle(turns), angles)
 
@@ -111,32 +138,41 @@ class Flat(Chain):
 class Space(Chain):
     """Chains in space, three angles a joint."""
 
-    def pose(self, angles: Floats) -> Pose:
-        frames = accumulated(rotations(angles))
-        joints = np.zeros((len(angles), len(self.offsets) + 1, 3))
-        links = (frames @ self.offsets[:, :, None])[..., 0]
-        links.cumsum(axis=1, out=joints[:, 1:])
-        axes = np.empty((len(angles), 3, len(self.offsets), 3))
-        axes[:, :, 0, :2] = np.eye(3)[:, :2]
-        axes[:, :, 1:, :2] = np.moveaxis(frames[:, :-1, :, :2], 2, 1)
-        axes[:, :, :, 2] = np.moveaxis(frames[..., 2], 2, 1)
-        # The y axis, turned by Rx; what was the z axis before is its product with the others.
-        cosine, sine = np.cos(angles[:, None, :, 0]), np.sin(angles[:, None, :, 0])
-        x, y = axes[..., 0], axes[..., 1]
-        z = np.stack([cross(x, y, i) for i in range(3)], axis=1)
-        axes[..., 1] = cosine * y + sine * z
-        return Pose(angles, joints, axes)
+    def __init__(self, lengths: Floats, directions: Floats) -> None:
+        super().__init__(lengths, directions)
+        self.links = (lengths[:, None] * directions)[:, :, None]
 
-    def jacobian(self, pose: Pose) -> Floats:
-        arms = np.moveaxis(pose.joints[:, -1:] - pose.joints[:, :-1], 2, 1)[..., None]
-        jacobian = np.stack([cross(pose.axes, arms, i) for i in range(3)], axis=1)
-        return jacobian.reshape(len(arms), 3, -1)
+    def bent(self, angles: Floats) -> tuple[Floats, NDArray[Any]]:
+        frames = accumulated(rotations(angles))
+        joints = np.zeros(frames.shape[:-1])
+        (frames[:, 1:] @ self.links)[..., 0].cumsum(axis=1, out=joints[:, 1:])
+        return joints, frames
+
+    def axes(self, pose: Pose, joints: slice) -> list[Floats]:
+        """Return the axes (G, n, 3) about which the three angles of some joints turn."""
+        before, after = pose.frames[:, :-1][:, joints], pose.frames[:, 1:][:, joints]
+        # x as it was before, y turned by Rx, z turned by Rx·Ry (Rz leaves it).
+        angle = pose.angles[:, joints, :1]
+        y = np.cos(angle) * before[..., 1] + np.sin(angle) * before[..., 2]
+        return [before[..., 0], y, after[..., 2]]
+
+    def least_turns(self, pose: Pose, way: Floats, damping: Floats) -> Floats:
+        arms = pose.joints[:, -1:] - pose.joints[:, :-1]
+        columns = np.empty((*arms.shape, 3))
+        for k, axis in enumerate(self.axes(pose, slice(None))):
+            cross(axis, arms, out=columns[:, :, k])
+        columns = columns.reshape(len(arms), -1, 3)
+        square = columns.swapaxes(1, 2) @ columns
+        square.reshape(-1, 9)[:, ::4] += damping[:, None]
+        turns: Floats = (columns @ np.linalg.solve(square, way[:, :, None]))[:, :, 0]
+        return turns
 
     def circle(self, pose: Pose, k: int, effector: Floats) -> tuple[Floats, Floats]:
-        axis = pose.axes[:, :, k // 3, k % 3]
-        arm = effector - pose.joints[:, k // 3]
-        tangent = np.stack([cross(axis, arm, i) for i in range(3)], axis=1)
-        return np.stack([cross(tangent, axis, i) for i in range(3)], axis=1), tangent
+        joint, which = divmod(k, 3)
+        axis = self.axes(pose, slice(joint, joint + 1))[which][:, 0]
+        arm = effector - pose.joints[:, joint]
+        tangent = cross(axis, arm, np.empty_like(arm))
+        return cross(tangent, axis, np.empty_like(arm)), tangent
 
     def aimed(self, angles: Floats, directions: Floats) -> Floats:
         local = rotations(angles)
@@ -146,8 +182,7 @@ class Space(Chain):
             # Of length 1 exactly, or errors would double from link to link.
             start = frame @ direction
             start /= norm(start)[:, None]
-            columns = turned(frame.swapaxes(1, 2), start, directions[:, k])
-            after = columns.swapaxes(1, 2)
+            after = turned(frame.swapaxes(1, 2), start, directions[:, k]).swapaxes(1, 2)
             local[:, k] = before.swapaxes(1, 2) @ after
             before = after
         return euler_angles(local, angles)
@@ -158,15 +193,16 @@ def as_complex(points: Floats) -> NDArray[np.complex128]:
     return points[..., 0] + 1j * points[..., 1]
 
 
-def cross(a: Floats, b: Floats, i: int) -> Floats:
-    """Return component i of the product of vectors whose components are on axis 1."""
-    j, k = (i + 1) % 3, (i + 2) % 3
-    return a[:, j] * b[:, k] - a[:, k] * b[:, j]
+def cross(a: Floats, b: Floats, out: Floats) -> Floats:
+    """Write the products of vectors (..., 3) into `out`."""
+    for i, j, k in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        np.subtract(a[..., j] * b[..., k], a[..., k] * b[..., j], out=out[..., i])
+    return out
 
 
 def norm(vectors: Floats) -> Floats:
     """Return the lengths of the vectors on the last axis."""
-    lengths: Floats = np.sqrt((vectors * vectors).sum(axis=-1))
+    lengths: Floats = np.sqrt(np.add.reduce(vectors * vectors, axis=-1))
     return lengths
 
 

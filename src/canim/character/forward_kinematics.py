@@ -399,7 +399,7 @@ def jacobian_3d(angles: ArrayLike, offsets: ArrayLike) -> Floats:
 def _pose(angles: Floats, offsets: Floats, root: Floats) -> tuple[Floats, Floats]:
     """Return how every link lies, (N, d, d), and where the joints are, (N + 1, d)."""
     with np.errstate(over="ignore", invalid="ignore"):
-        turned = flat_rotations(angles) if angles.ndim == 1 else accumulated(rotations(angles))
+        turned = flat_rotations(angles) if angles.ndim == 1 else accumulated(rotations(angles))[1:]
         links = np.einsum("nij,nj->ni", turned, offsets)
         positions = np.cumsum(np.concatenate([root[None], links]), axis=0)
     return turned, finite(positions, "angles, offsets and root")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -12,17 +11,17 @@ from numpy.typing import ArrayLike, NDArray
 from canim._arguments import Floats, finite, floats, points, whole_number
 from canim.character._chain import chain, place
 from canim.character._methods import METHODS, Step, bend, point
-from canim.character._poses import Chain, Flat, Space, norm
+from canim.character._poses import Chain, Flat, Space
 
 __all__ = ["IKBatchResult", "IKResult", "inverse_kinematics", "inverse_kinematics_batch"]
 
 Whole = NDArray[np.intp]
 
-# In so many iterations the error must fall to a half, or the chain is bent as one.
+# In so many iterations the error must fall to a quarter, or the chain is bent as one.
 _PATIENCE = 10
 
-# An angle that turns by less has not moved, in radians.
-_STILL = 1e-9
+# So is it if an iteration changes the error by less, in lengths of the chain.
+_STILL = 1e-12
 
 # The most that an angle turns from one picture to the next, in radians: below 0.5 by a margin
 # for rounding.
@@ -31,8 +30,8 @@ _PICTURE = 0.499
 # Larger angles, in radians, have too few digits left for small turns.
 _LARGEST = 1e6
 
-# So many links are bent at once: their arrays fit the cache of a processor.
-_GROUP = 8000
+# Goals are searched in groups of so many angles: their arrays fit the cache of a processor.
+_GROUP = 20_000
 
 
 class IKResult(NamedTuple):
@@ -176,7 +175,7 @@ def inverse_kinematics(
     A goal is out of reach if it is farther away than the chain is long, or nearer than one link
     is longer than all others together. With `closest` the chain then points at it, straight or
     folded. It is also helped if an iteration moves no joint, as in a straight chain that points
-    at the goal, or if ten iterations do not halve the error: then it is unfolded, or folded,
+    at the goal, or if ten iterations do not quarter the error: then it is unfolded, or folded,
     until its end effector is as far from the root as the goal, and turned to the goal as one.
 
     References
@@ -332,13 +331,15 @@ def _solve(
         targets = finite(finite(goals - root, "goal and root") / size, "goal")
     body = (Flat if links.shape[1] == 2 else Space)(lengths / size, links / lengths[:, None])
     distance = np.hypot.reduce(targets, axis=1)
-    beyond = np.maximum(distance - 1, body.inner - distance)
+    beyond = distance - 1
+    if body.inner > 0:
+        beyond = np.maximum(beyond, body.inner - distance)
     # Steps towards goals that are far out of reach do not depend on how far.
     targets = targets * np.minimum(1, 4 / np.maximum(distance, 4))[:, None]
 
     angles, iterations = starts.copy(), np.zeros(len(goals), dtype=np.intp)
     joints = np.empty((len(goals), len(links) + 1, links.shape[1]))
-    group = max(1, _GROUP // len(links))
+    group = max(1, _GROUP // starts[0].size)
     for part in (slice(first, first + group) for first in range(0, len(goals), group)):
         found = angles[part], joints[part], iterations[part]
         _search(body, found, targets[part], beyond[part], options, film)
@@ -365,39 +366,47 @@ def _search(
     tolerance = options.tolerance * (1 - 1e-6)
     outside = options.closest & (beyond > -tolerance / 2)
     left = np.arange(len(goals))
-    pose = body.pose(angles)
-    joints[:] = pose.joints
-    error = earlier = norm(goals - pose.joints[:, -1])
-    for count in range(1, options.max_iterations + 1):
-        far = error > tolerance
-        if not far.all():
-            pose, goals, left = pose[far], goals[far], left[far]
-            error, earlier, outside = error[far], earlier[far], outside[far]
+    pose = body.pose(angles, goals)
+    before = earlier = pose.distance
+    for count in range(options.max_iterations):
+        ended = pose.distance <= tolerance
+        if count == 1:
+            ended |= outside[left]
+        if np.count_nonzero(ended):
+            done, stay = left[ended], ~ended
+            angles[done], joints[done] = pose.angles[ended], pose.joints[ended]
+            iterations[done] = count
+            pose, left, before, earlier = pose.only(stay), left[stay], before[stay], earlier[stay]
         if not left.size:
-            break
-        turned = options.step(body, pose, goals)
+            return
+        turned = options.step(body, pose)
         if options.closest:
-            helped = np.abs(turned - pose.angles).reshape(len(left), -1).max(axis=1) < _STILL
-            if count % _PATIENCE == 0:
-                helped |= error > earlier / 2
-                earlier = error
-            for chosen, help_ in ((outside, point), (helped & ~outside, bend)):
-                if chosen.any():
-                    turned[chosen] = help_(body, pose[chosen], goals[chosen])
-        pose = body.pose(turned)
-        error = norm(goals - pose.joints[:, -1])
-        error[outside] = 0
-        angles[left], joints[left], iterations[left] = turned, pose.joints, count
+            if count == 0:
+                helped = outside[left]
+            else:
+                helped = np.abs(pose.distance - before) < _STILL
+                if count % _PATIENCE == 0:
+                    helped |= pose.distance > earlier / 4
+                    earlier = pose.distance
+            if np.count_nonzero(helped):
+                help_ = bend if count else point
+                turned[helped] = help_(body, pose.only(helped))
+        before = pose.distance
+        pose = body.pose(turned, pose.goals)
         if film is not None:
             film.append(turned[0])
+    angles[left], joints[left], iterations[left] = pose.angles, pose.joints, count + 1
 
 
 def _divided(film: list[Floats]) -> Floats:
     """Divide large turns from one pose to the next into several pictures."""
+    poses = np.array(film)
+    turns = np.abs(poses[1:] - poses[:-1])
+    if turns.max(initial=0) <= _PICTURE:
+        return poses
     pictures = [film[0]]
-    for before, after in pairwise(film):
-        way = after - before
-        parts = math.ceil(np.abs(way).max() / _PICTURE)
-        pictures += [before + way * (k / parts) for k in range(1, parts)]
+    for before, after, turn in zip(film, film[1:], turns):
+        parts = math.ceil(turn.max() / _PICTURE)
+        pictures += [before + (after - before) * (k / parts) for k in range(1, parts)]
         pictures.append(after)
     return np.array(pictures)
