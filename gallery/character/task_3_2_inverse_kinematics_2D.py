@@ -205,29 +205,29 @@ ways = {
     "ccd": "CCD",
     "fabrik": "FABRIK",
 }
-film_goals = np.array([[-1.8, 1.6], [0.5, -2.0], [2.6, 2.6]])
+film_goals = np.array([[2.2, 0.6], [-1.2, -1.6], [-2.6, 2.6]])
 histories = []
 for method in ways:
     pose, history = start, []
     for goal in film_goals:
         found = character.inverse_kinematics(
-            pose, offsets, goal, method=method, max_iterations=40, closest=False
+            pose, offsets, goal, method=method, max_iterations=30, closest=False
         )
-        slow = canim.plotting.slow_poses(found.history, 0.2)[:60]
+        slow = canim.plotting.slow_poses(found.history, 0.25)[:45]
         history.append([forward_kinematics_2d(angles, offsets) for angles in slow])
         pose = slow[-1]
     histories.append(history)
 
-fig, axes = plt.subplots(2, 2, figsize=(5, 5.4))
+fig, axes = plt.subplots(2, 2, figsize=(4.6, 5))
 for ax, name in zip(axes.flat, ways.values()):
     ax.set(xlim=(-3.3, 3.3), ylim=(-3.3, 3.3), aspect="equal", title=name)
     ax.add_patch(plt.Circle((0, 0), 3, fill=False, linestyle="--", color="gray"))
     ax.set_axis_off()
 # Film: Four panels with the same chain and the same orange cross, which goes to three places.
 # For the first two, within reach, pseudoinverse and damped least squares move alike, nearly
-# straight to the cross. CCD swings in from the end of the chain, FABRIK stays long and
-# comes around from outside. The third is beyond the dashed circle of what can be reached: all
-# four stretch towards it; the two above go on trembling.
+# straight to the cross. CCD swings in from the end of the chain, FABRIK comes around from
+# outside, and both end in other poses. The third is beyond the dashed circle of what can be
+# reached: all four stretch towards it; the two above go on trembling.
 ways_film = canim.plotting.animate_chains(axes.flat, histories, film_goals)
 
 # %%

@@ -182,8 +182,8 @@ for k, (R, name) in enumerate(zip([np.eye(3), x_then_z, z_then_x], names), 1):
 # each product turns the offset of its link. It is given.
 #
 # **The Jacobian** has three rows now, :math:`x`, :math:`y` and :math:`z`, and a column for
-# *every* angle: three for joint 0, then three for joint 1, and so on. With three joints there are
-# nine columns. The arrows at the end effector:
+# *every* angle: three for the first joint, then three for the second, and so on. With three
+# joints there are nine columns. The arrows at the end effector:
 
 positions = character.forward_kinematics_3d(start, offsets)
 arrows = character.jacobian_3d(start, offsets).T
@@ -271,7 +271,7 @@ def forward_kinematics(angles, offsets):
 
 
 def jacobian(angles, offsets):
-    """Return J, shape (3, 3 N): three columns for joint 0, then three for joint 1, and so on."""
+    """Return J, shape (3, 3 N): three columns for each joint, one joint after the other."""
     epsilon = 1e-6
     J = np.zeros((3, angles.size))
     p = forward_kinematics(angles, offsets)[-1]  # end effector: given

@@ -151,7 +151,7 @@ def test_a_wrong_step_is_named():
         poses = reach(angles, offsets, goal)
         return [pose * [1, *[1.1] * (len(angles) - 1)] for pose in poses]
 
-    assert "share of joint" in results(reach=wrong)["update"].message
+    assert "share of angles[" in results(reach=wrong)["update"].message
 
 
 def test_another_array_that_is_the_same_is_told_with_the_jacobian():

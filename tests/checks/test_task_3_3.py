@@ -87,7 +87,7 @@ def test_a_wrong_step_is_named_with_joint_and_axis():
         return [angles, angles + [[0, 0, 1]] + 0 * angles]
 
     message = results(reach=wrong)["update"].message
-    assert message.startswith("share of joint 1 about z in the first step: expected ")
+    assert message.startswith("share of angles[0, 2] in the first step: expected ")
 
 
 def test_a_list_in_place_of_a_table_is_told():

@@ -125,10 +125,9 @@ def _step_in_words(got: Floats, expected: Floats, angles: Floats, *_: Any) -> st
     if got[-1]:
         return "all poses in the list are the same"
     i = int(np.nanargmax(np.abs(got - expected)))
-    axis = f" about {'xyz'[i % 3]}" if angles.ndim == 2 else ""
-    joint = i // 3 if axis else i
+    entry = ", ".join(str(k) for k in np.unravel_index(i, angles.shape))
     return (
-        f"share of joint {joint + 1}{axis} in the first step: "
+        f"share of angles[{entry}] in the first step: "
         f"expected {number(expected[i])}, got {number(got[i])}"
     )
 

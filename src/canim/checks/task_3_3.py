@@ -181,7 +181,7 @@ TASK = Task(
         ),
         Mistake(
             "columns in another order",
-            "The columns are in another order: first the three angles of joint 1.",
+            "The columns are in another order: first the three angles of the first joint.",
             {"jacobian": _other_order},
             parts=(JACOBIAN,),
         ),

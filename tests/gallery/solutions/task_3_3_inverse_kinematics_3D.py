@@ -12,7 +12,7 @@ def rotation(angles):
 
 
 def jacobian(angles, offsets):
-    """Return J, shape (3, 3 N): three columns for joint 0, then three for joint 1, and so on."""
+    """Return J, shape (3, 3 N): three columns for each joint, one joint after the other."""
     epsilon = 1e-6
     J = np.zeros((3, angles.size))
     p = forward_kinematics(angles, offsets)[-1]  # end effector: given
