@@ -147,13 +147,14 @@ def save(image, path):
     if path.suffix == ".webp":
         image.save(path, quality=WEBP_QUALITY)
     else:
-        _with_palette(image).save(path, optimize=True)
+        # Refined until few pixels change, so that smooth shades have no bands.
+        _with_palette(image, kmeans=1000).save(path, optimize=True)
 
 
-def _with_palette(image):
+def _with_palette(image, kmeans=0):
     from PIL import Image
 
-    small = image.quantize(256, Image.Quantize.MAXCOVERAGE)
+    small = image.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans)
     _keep_ground(image, small)
     return small
 

@@ -314,3 +314,4 @@ film = animate_chain(ax, reach, forward_kinematics, start, offsets, goals)
 # ---------
 # In canim: :func:`canim.character.inverse_kinematics`,
 # :func:`canim.character.forward_kinematics_3d` and :func:`canim.character.jacobian_3d`.
+# Next: :ref:`Task 3.4 <task-3-4>`, where faces are mixed.

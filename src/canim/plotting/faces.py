@@ -239,6 +239,7 @@ def weight_sliders(
         figure.canvas.draw_idle()
 
     for slider in sliders:
+        slider.label.set_x(-0.06)  # clear of the knob
         slider.on_changed(show)
     show()
     return sliders
