@@ -1,11 +1,15 @@
 """How Sphinx makes the course site. What is our own is in `_ext/`."""
 
 import sys
+import warnings
 from pathlib import Path
 
 import canim
 
 sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+# What renders faces needs so much memory that joblib starts its worker anew; it may.
+warnings.filterwarnings("ignore", "A worker stopped while some jobs")
 
 project = "canim"
 author = "The canim contributors"

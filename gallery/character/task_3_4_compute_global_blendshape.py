@@ -199,7 +199,7 @@ canim.check("3.4", global_blendshape=global_blendshape, weights_at=weights_at)
 fig, axes = plt.subplots(1, 4, num="Yours", figsize=(6.4, 2.6))
 for ax, total in zip(axes, [0.5, 1, 1.5, 2]):
     weights = np.zeros(len(shapes))
-    weights[smile] = total / 2
+    weights[smile] = total / 2  # half of it for each side
     canim.plotting.draw_face(ax, face, global_blendshape(shapes, weights), room=2)
     ax.set_title(f"sum {total:g}")
 
@@ -218,8 +218,8 @@ sliders = canim.plotting.weight_sliders(
 # %%
 # Think about it
 # --------------
-# 1. Predict: what happens if all weights are 0? And if only the neutral face has the weight
-#    -1? Then try it.
+# 1. Predict: what is left of the head if all weights are 0? And if only the neutral face has
+#    a weight, 0.1? Then try it.
 # 2. What happens when the weights sum to more than one, and why?
 # 3. Give smile left the weight 1 and smile right the weight 1. Which weight must the neutral
 #    face have, so that the sum is one? Predict what you will see, and try it.

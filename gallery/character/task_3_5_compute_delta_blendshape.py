@@ -128,13 +128,13 @@ for above, below, total in zip(*axes, [0.5, 1, 1.5, 2]):
 # Both ways are the same formula if the neutral face gets the weight that is left,
 # :math:`w_0 = 1 - w_1 - \dots - w_K`. Then the weights sum to one by themselves.
 #
-# Films, games and phones work with deltas. A phone that films your face sends some fifty
-# weights, thirty times a second. They have names such as ``jawOpen`` and ``mouthSmileLeft``, and
-# each moves a delta. The head of a film may have hundreds.
+# Films, games and phones work with deltas. A phone that films your face can turn it into some
+# fifty weights, many times a second. They have names such as ``jawOpen`` and
+# ``mouthSmileLeft``, and each of them moves one delta. The head of a film hero may have hundreds.
 #
 # Two things can still go wrong. Deltas that move the same vertices add up: a smile and a frown
-# are not one after the other, but both at once. And large weights leave what a face can do;
-# you have seen it. More in :cite:t:`LewisEtAl2014`.
+# pull at the same corners of the mouth. And with large weights a face does what no face can
+# do; you have seen it. More in :cite:t:`LewisEtAl2014`.
 
 # %%
 # Pseudocode
