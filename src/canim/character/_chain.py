@@ -30,7 +30,8 @@ def chain(
             f"angles must hold {each} for each of the {count} links in offsets, "
             f"shape {shape}{more}, but has shape {angles.shape}."
         )
-    return angles, offsets, place(np.zeros(dimension) if root is None else root, "root", dimension)
+    base = np.zeros(dimension) if root is None else place(root, "root", dimension)
+    return angles, offsets, base
 
 
 def links(value: ArrayLike, dimension: int | None = None) -> Floats:

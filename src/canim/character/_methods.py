@@ -99,21 +99,21 @@ def bend(chain: Chain, pose: Pose) -> Floats:
     shorter = norm(pose.joints[:, -1]) < reach
     turn = chain.extreme(pose.angles, along, shorter) - pose.angles
 
-    def at(share: Floats) -> tuple[Pose, Floats]:
-        """Return the poses at a share of the turn, and how much too far they reach."""
+    def at(share: Floats) -> tuple[Floats, Floats, Floats]:
+        """Return angles and joints at a share of the turn, and how much too far these reach."""
         angles = pose.angles + share.reshape(-1, *[1] * (turn.ndim - 1)) * turn
-        bent = chain.pose(angles, pose.goals)
-        return bent, norm(bent.joints[:, -1]) - reach
+        joints, _ = chain.bent(angles)
+        return angles, joints, norm(joints[:, -1]) - reach
 
     low, high = np.zeros_like(reach), np.ones_like(reach)
-    above, below = at(low)[1], at(high)[1]
+    above, below = at(low)[2], at(high)[2]
     for count in range(_HALVINGS + _LINES):
         fall = np.where(above == below, 1, above - below)
         part = 0.5 if count < _HALVINGS else above / fall
         middle = low + part * (high - low)
-        bent, excess = at(middle)
+        angles, joints, excess = at(middle)
         beyond = (excess < 0) != shorter
         low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
         above, below = np.where(beyond, above, excess), np.where(beyond, excess, below)
-    links = np.diff(bent.joints, axis=1) / chain.lengths[:, None]
-    return chain.aimed(bent.angles, turned(links, unit(bent.joints[:, -1], along), along))
+    links = np.diff(joints, axis=1) / chain.lengths[:, None]
+    return chain.aimed(angles, turned(links, unit(joints[:, -1], along), along))

@@ -35,7 +35,8 @@ class Pose(NamedTuple):
 
     def only(self, chosen: Truths) -> Pose:
         """Return the poses of some goals."""
-        return Pose(*(values[chosen] for values in self))
+        numbers = np.flatnonzero(chosen)
+        return Pose(*(values.take(numbers, axis=0) for values in self))
 
 
 class Chain(ABC):
@@ -110,19 +111,23 @@ class Flat(Chain):
         self.links = lengths * self.turns
 
     def bent(self, angles: Floats) -> tuple[Floats, NDArray[Any]]:
-        links = np.exp(1j * angles.cumsum(axis=1)) * self.links
+        links = 1j * np.add.accumulate(angles, axis=1)
+        np.exp(links, out=links)
+        links *= self.links
         joints = np.zeros((len(links), links.shape[1] + 1), dtype=complex)
-        links.cumsum(axis=1, out=joints[:, 1:])
+        np.add.accumulate(links, axis=1, out=joints[:, 1:])
         return joints.view(float).reshape(*joints.shape, 2), joints
 
     def least_turns(self, pose: Pose, way: Floats, damping: Floats) -> Floats:
-        # As complex numbers the columns of J are c, and J Jᵀ w is a w + b w̄.
-        c = 1j * (pose.frames[:, -1:] - pose.frames[:, :-1])
-        a = np.einsum("gn,gn->g", c, c.conj()).real / 2 + damping
-        b = np.einsum("gn,gn->g", c, c) / 2
-        e = as_complex(way)
-        w = (a * e - b * e.conj()) / (a * a - (b * b.conj()).real)
-        turns: Floats = (c.conj() * w[:, None]).real
+        # In complex numbers the columns of J are i times the arms, and 2 (J Jᵀ + λ² I) w is
+        # s w - t w̄, which is 2 e.
+        arms = pose.frames[:, -1:] - pose.frames[:, :-1]
+        mirrored = arms.conj()
+        s = np.vecdot(arms, arms).real + 2 * damping
+        t = np.vecdot(mirrored, arms)
+        e = way.view(complex)[:, 0]
+        w = 2 * (s * e + t * e.conj()) / (s * s - (t * t.conj()).real)
+        turns: Floats = (mirrored * w[:, None]).imag
         return turns
 
     def circle(self, pose: Pose, k: int, effector: Floats) -> tuple[Floats, Floats]:
@@ -145,7 +150,7 @@ class Space(Chain):
     def bent(self, angles: Floats) -> tuple[Floats, NDArray[Any]]:
         frames = accumulated(rotations(angles))
         joints = np.zeros(frames.shape[:-1])
-        (frames[:, 1:] @ self.links)[..., 0].cumsum(axis=1, out=joints[:, 1:])
+        np.add.accumulate((frames[:, 1:] @ self.links)[..., 0], axis=1, out=joints[:, 1:])
         return joints, frames
 
     def axes(self, pose: Pose, joints: slice) -> list[Floats]:
@@ -202,7 +207,7 @@ def cross(a: Floats, b: Floats, out: Floats) -> Floats:
 
 def norm(vectors: Floats) -> Floats:
     """Return the lengths of the vectors on the last axis."""
-    lengths: Floats = np.sqrt(np.add.reduce(vectors * vectors, axis=-1))
+    lengths: Floats = np.sqrt(np.vecdot(vectors, vectors))
     return lengths
 
 

@@ -20,7 +20,7 @@ Whole = NDArray[np.intp]
 # In so many iterations the error must fall to a quarter, or the chain is bent as one.
 _PATIENCE = 10
 
-# So is it if an iteration changes the error by less, in lengths of the chain.
+# So is it if the first iteration changes the error by less, in lengths of the chain.
 _STILL = 1e-12
 
 # The most that an angle turns from one picture to the next, in radians: below 0.5 by a margin
@@ -174,9 +174,10 @@ def inverse_kinematics(
 
     A goal is out of reach if it is farther away than the chain is long, or nearer than one link
     is longer than all others together. With `closest` the chain then points at it, straight or
-    folded. It is also helped if an iteration moves no joint, as in a straight chain that points
-    at the goal, or if ten iterations do not quarter the error: then it is unfolded, or folded,
-    until its end effector is as far from the root as the goal, and turned to the goal as one.
+    folded. It is also helped if the first iteration changes nothing, as in a straight chain
+    that points at the goal, or if ten iterations do not quarter the error: then it is unfolded,
+    or folded, until its end effector is as far from the root as the goal, and turned to the
+    goal as one.
 
     References
     ----------
@@ -367,7 +368,7 @@ def _search(
     outside = options.closest & (beyond > -tolerance / 2)
     left = np.arange(len(goals))
     pose = body.pose(angles, goals)
-    before = earlier = pose.distance
+    earlier = pose.distance
     for count in range(options.max_iterations):
         ended = pose.distance <= tolerance
         if count == 1:
@@ -376,22 +377,20 @@ def _search(
             done, stay = left[ended], ~ended
             angles[done], joints[done] = pose.angles[ended], pose.joints[ended]
             iterations[done] = count
-            pose, left, before, earlier = pose.only(stay), left[stay], before[stay], earlier[stay]
+            pose, left, earlier = pose.only(stay), left[stay], earlier[stay]
         if not left.size:
             return
         turned = options.step(body, pose)
-        if options.closest:
+        if options.closest and (count < 2 or count % _PATIENCE == 0):
             if count == 0:
-                helped = outside[left]
+                helped, help_ = outside[left], point
+            elif count == 1:
+                helped, help_ = np.abs(pose.distance - earlier) < _STILL, bend
             else:
-                helped = np.abs(pose.distance - before) < _STILL
-                if count % _PATIENCE == 0:
-                    helped |= pose.distance > earlier / 4
-                    earlier = pose.distance
+                helped, help_ = pose.distance > earlier / 4, bend
+                earlier = pose.distance
             if np.count_nonzero(helped):
-                help_ = bend if count else point
                 turned[helped] = help_(body, pose.only(helped))
-        before = pose.distance
         pose = body.pose(turned, pose.goals)
         if film is not None:
             film.append(turned[0])
