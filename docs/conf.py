@@ -74,7 +74,7 @@ pygments_dark_style = "a11y-high-contrast-dark"
 # -- Text ------------------------------------------------------------------
 myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 nb_execution_mode = "force"
-nb_execution_raise_on_error = True
+nb_execution_show_tb = True  # an error is a warning, which ends a build with -W
 nb_execution_timeout = 120
 nb_output_stderr = "remove-warn"
 nb_merge_streams = True

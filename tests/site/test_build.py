@@ -2,6 +2,7 @@
 
 import filecmp
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -133,3 +134,65 @@ def test_address_of_the_site_is_told(tmp_path, monkeypatch):
     )
     page_head._map(app, None)
     assert (tmp_path / "sitemap.xml").read_text(encoding="utf-8").count("<loc>https://") == 2
+
+
+EXECUTED = """---
+file_format: mystnb
+kernelspec:
+  name: page
+---
+
+# T
+
+```{code-cell} python
+:tags: [fold]
+
+import matplotlib.pyplot as plt
+
+# Picture: A line that rises,
+# from left to right.
+plt.subplots(figsize=(3, 2))[1].plot([0, 1])
+plt.show()
+```
+"""
+
+
+@pytest.fixture
+def execute(tmp_path):
+    """Build one executed page with the settings of the site."""
+
+    def build(text):
+        (tmp_path / "source").mkdir()
+        (tmp_path / "source/index.md").write_text(text, encoding="utf-8")
+        settings = (ROOT / "docs/conf.py").read_text(encoding="utf-8")
+        lines = re.findall(r"^nb_.*\n", settings, re.M)
+        lines.append('extensions = ["myst_nb", "notebooks", "pictures", "task_page"]')
+        (tmp_path / "source/conf.py").write_text("".join(lines), encoding="utf-8")
+        return sphinx(tmp_path / "source", tmp_path / "html", "-W", "--keep-going")
+
+    return build
+
+
+def test_a_figure_has_its_text_and_size_and_its_code_is_folded(execute, tmp_path):
+    built = execute(EXECUTED)
+    assert built.stderr == ""
+    page = (tmp_path / "html/index.html").read_text(encoding="utf-8")
+    assert 'alt="A line that rises, from left to right." width="300" height="200"' in page
+    assert page.index("How this picture is drawn") < page.index("subplots") < page.index("<img")
+    assert "# Picture" not in page
+
+
+def test_a_figure_without_text_is_a_warning(execute):
+    built = execute(EXECUTED.replace("# Picture: A", "# A"))
+    assert "WARNING: a picture without a comment '# Picture: …' above it" in built.stderr
+
+
+def test_a_text_without_figure_is_a_warning(execute):
+    built = execute(EXECUTED.replace("plt.show()", "plt.close()"))
+    assert "WARNING: '# Picture: A line that rises, from left to right.'" in built.stderr
+
+
+def test_an_error_ends_the_build(execute):
+    built = execute(EXECUTED.replace("plt.show()", "1 / 0"))
+    assert built.returncode != 0
+    assert "ZeroDivisionError" in built.stderr
