@@ -205,7 +205,7 @@ def solutions(session):
 @nox.session(default=False)
 def picture(session):
     """Draw the picture of README.md anew."""
-    install(session)
+    install(session, "docs")
     session.run("python", "docs/readme_picture.py")
 
 
