@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 from itertools import product
 
@@ -185,12 +186,17 @@ def test_one_goal_and_many_are_solved_alike(dimension, method):
                 )
 
 
-def test_many_chains_are_solved_in_groups():
+def test_many_chains_are_solved_in_groups(monkeypatch):
     rng = np.random.default_rng(5)
-    goals = random_goals(rng, straight(2, 40), 450)
-    found = inverse_kinematics_batch(np.zeros(40), straight(2, 40), goals)
-    assert found.converged.all()
-    assert np.linalg.norm(found.positions[:, -1] - goals, axis=1).max() <= 40e-5
+    offsets = straight(3, 4)
+    goals = random_goals(rng, offsets, 20)
+    whole = inverse_kinematics_batch(np.full((4, 3), 0.2), offsets, goals)
+    module = importlib.import_module("canim.character.inverse_kinematics")
+    for size in (1, 36, 100):
+        monkeypatch.setattr(module, "_GROUP", size)
+        parts = inverse_kinematics_batch(np.full((4, 3), 0.2), offsets, goals)
+        for some, every in zip(parts, whole):
+            np.testing.assert_allclose(some, every, rtol=0, atol=1e-9)
 
 
 # --- Singular poses and goals at the limits
@@ -207,6 +213,17 @@ def test_straight_chains_leave_the_line(dimension, method, share):
         result = inverse_kinematics(start, offsets, goal, method=method)
         assert result.converged
         is_honest(result, start, offsets, goal, np.zeros(dimension))
+
+
+@every_method
+@every_dimension
+def test_a_chain_that_cannot_move_is_helped_at_once(dimension, method):
+    start = np.zeros((3, 3)[: dimension - 1])
+    goal = 2.5 * np.eye(dimension)[-1]
+    result = inverse_kinematics(start, straight(dimension, 3), goal, method=method)
+    assert result.iterations == 2
+    # One still picture, then the chain bends.
+    assert result.history[1].tolist() == start.tolist()
 
 
 @every_method
