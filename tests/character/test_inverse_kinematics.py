@@ -470,7 +470,8 @@ def test_space_turns_no_more_than_it_must():
     offsets = straight(3, 4)
     start = np.zeros((4, 3))
     start[:, 2] = rng.uniform(-3, 3, 4)  # Turns about the links themselves.
-    start[0, 1] = 20 * math.pi + math.pi / 2  # A right angle: x and z turn about one axis.
+    # A right angle: x and z turn about one axis.
+    start[0, :2] = 0.7, 20 * math.pi + math.pi / 2
     goal = FORWARD[3](start, offsets)[-1] * 1.5
     result = inverse_kinematics(start, offsets, goal)
     np.testing.assert_allclose(result.angles, start, rtol=0, atol=1e-6)
