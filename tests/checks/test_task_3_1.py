@@ -95,3 +95,15 @@ def test_what_is_written_first_is_done_first():
         "done",
         "done",
     ]
+
+
+def test_a_star_in_place_of_a_product_of_matrices_is_told():
+    def star(angles, offsets):
+        positions, T = [(0, 0)], np.eye(3)
+        for i, (angle, (x, y)) in enumerate(zip(angles, offsets)):
+            R, Z = np.array(rotation(angle)), np.array([[1, 0, x], [0, 1, y], [0, 0, 1]])
+            T = T * R * Z if i else R @ Z
+            positions.append(T[:2, 2])
+        return positions
+
+    assert "@ multiplies matrices" in results(forward_kinematics=star)["next joints"].hint

@@ -72,6 +72,13 @@ def _first_link_twice(angles: Floats, offsets: Floats) -> Floats:
     return positions
 
 
+def _row_too_early(angles: Floats, offsets: Floats) -> Floats:
+    positions = chain(angles, offsets)
+    positions[1:-1] = positions[2:]
+    positions[-1] = np.nan
+    return positions
+
+
 def _wrong_rotation(turn: Callable[[float], Floats]) -> dict[str, Any]:
     return {"rotation": turn, "forward_kinematics": _chain(turn=turn)}
 
@@ -267,8 +274,13 @@ TASK = Task(
             _wrong_chain(angle_of=lambda i: i - 1, offset_of=lambda i: i - 1),
         ),
         Mistake(
-            "position from a row",
-            "The position is in the last column of T, not in its last row.",
+            "row too early",
+            "Each position is one row too early: row 0 is the root, row 1 the first link.",
+            {"forward_kinematics": _row_too_early},
+        ),
+        Mistake(
+            "position from a row, or products of numbers",
+            "The position is in the last column of T, not in its row. And @ multiplies matrices.",
             _wrong_chain(row=2),
         ),
         Mistake(

@@ -62,6 +62,14 @@ def _other_order(angles: Floats, offsets: Floats) -> Floats:
     return columns
 
 
+def _overlapping(angles: Floats, offsets: Floats) -> Floats:
+    J = jacobian(angles, offsets)
+    columns = np.zeros(J.shape)
+    for i, k in np.ndindex(angles.shape):
+        columns[:, i + k] = J[:, 3 * i + k]
+    return columns
+
+
 def _turn(*degrees: float) -> Case:
     angles: Floats = np.radians(np.array(degrees, dtype=float))
     return Case((angles,), f"angles {degrees}°")
@@ -183,6 +191,12 @@ TASK = Task(
             "columns in another order",
             "The columns are in another order: first the three angles of the first joint.",
             {"jacobian": _other_order},
+            parts=(JACOBIAN,),
+        ),
+        Mistake(
+            "columns written over",
+            "Some columns are written twice, others never. How many does each joint need?",
+            {"jacobian": _overlapping},
             parts=(JACOBIAN,),
         ),
         Mistake(
