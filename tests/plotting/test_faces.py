@@ -263,16 +263,21 @@ def test_where_pyvista_cannot_render_that_is_asked_and_said_once(asked, ax, capl
 
 
 @pytest.mark.parametrize(
-    ("platform", "display", "window"),
+    ("platform", "display", "before", "window"),
     [
-        ("linux", "", "vtkEGLRenderWindow"),
-        ("linux", ":0", None),
-        ("darwin", "", None),
+        ("linux", "", None, "vtkEGLRenderWindow"),
+        ("linux", "", "vtkOSOpenGLRenderWindow", "vtkOSOpenGLRenderWindow"),
+        ("linux", ":0", None, None),
+        ("darwin", "", None, None),
     ],
 )
-def test_linux_without_a_screen_renders_with_egl(asked, monkeypatch, platform, display, window):
+def test_linux_without_a_screen_renders_with_egl(
+    asked, monkeypatch, platform, display, before, window
+):
     monkeypatch.setattr(subprocess, "run", lambda *args, **options: SimpleNamespace(returncode=0))
     monkeypatch.setattr(sys, "platform", platform)
     monkeypatch.setenv("DISPLAY", display)
+    if before:
+        monkeypatch.setenv("VTK_DEFAULT_OPENGL_WINDOW", before)
     assert faces.pyvista_renders()
     assert os.environ.get("VTK_DEFAULT_OPENGL_WINDOW") == window
