@@ -44,7 +44,8 @@ def _say_how_to_install(app, config):
         )
     config.install_line = (
         f'<p class="task-install">{first} <code>python -m pip install {escape(what)}</code>. '
-        "You need Python 3.11 or newer.</p>\n"
+        "You need Python 3.11 or newer. "
+        '<a href="{up}students/setup.html">All this with pictures</a></p>\n'
     )
 
 
@@ -87,7 +88,7 @@ class Install(SphinxDirective):
     def run(self):
         lines = [*self.content, f"{self.arguments[0]} -m pip install {_wheel().name}"]
         text = "\n".join(lines)
-        return [nodes.literal_block(text, text, language="text")]
+        return [nodes.literal_block(text, text, language="text", classes=["wraps"])]
 
 
 def _hand_out(app, exception):
