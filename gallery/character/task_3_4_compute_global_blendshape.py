@@ -157,10 +157,11 @@ for ax, total in zip(axes, sums):
 #            add its weight times the shape
 #        return the vertices
 #
-#    weights_at(t, count, first, second):
-#        weights of a moment: 0 for every shape,
-#            but 1 - t for the first one
-#            and t for the second one
+#    weights_at(t, count,
+#               first, second):
+#        weights of a moment: all 0,
+#            but 1 - t for the first
+#            and t for the second shape
 #        return the weights
 
 # %%

@@ -143,10 +143,12 @@ for above, below, total in zip(*axes, [0.5, 1, 1.5, 2]):
 # .. code-block:: text
 #
 #    deltas(neutral, shapes):
-#        deltas: each shape minus the neutral face
+#        deltas: each shape
+#            minus the neutral face
 #        return the deltas
 #
-#    delta_blendshape(neutral, shapes, weights):
+#    delta_blendshape(neutral, shapes,
+#                     weights):
 #        start: the neutral face
 #        weighted sum: for each shape,
 #            add its weight times its delta
