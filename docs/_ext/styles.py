@@ -46,7 +46,8 @@ def _link(app, pagename, templatename, context, doctree):
         context[files] = [
             f"_static/{together}?v={_version(app, together)}",
             *(
-                file
+                # Its name has a version; Sphinx adds one where an earlier build has left it.
+                f"_static/{name}" if name.startswith("mystnb.") else file
                 for file, name in names.items()
                 if name not in TOGETHER[together] and not is_seldom(name)
             ),
