@@ -291,12 +291,13 @@ for method, name in ways.items():
 # %%
 # Your task
 # ---------
-# Write the Jacobian, then the loop: error, stop, update. The loop ends after 200 steps, that
-# is given, and so is the list of poses. ``forward_kinematics_2d(angles, offsets)[-1]`` is the
-# end effector. ``np.linalg.pinv(J)`` is the pseudoinverse, ``np.linalg.norm(e)`` the length of
-# ``e``, and ``break`` leaves a loop. An array has only one place in the memory: ``b = a`` is a
-# second name for it, ``b = a.copy()`` is a second array. The program runs as it is: the
-# chain does not move yet.
+# Write the Jacobian, then the loop: error, stop, update. Programs count from 0: joint 1 has
+# ``angles[0]`` and column 0, ``J[:, 0]``. The loop ends after 200 steps, that is given, and so
+# is the list of poses. ``forward_kinematics_2d(angles, offsets)[-1]`` is the end effector.
+# ``np.linalg.pinv(J)`` is the pseudoinverse, ``np.linalg.norm(e)`` the length of ``e``, and
+# ``break`` leaves a loop. An array has only one place in the memory: ``b = a`` is a second
+# name for it, ``b = a.copy()`` is a second array. The program runs as it is: the chain does
+# not move yet.
 
 
 def jacobian(angles, offsets):
@@ -347,7 +348,8 @@ ax.axhline(tolerance, color="C1", linestyle="--")
 # 1. Predict: what does the film look like with a step size of 1? And of 2? Try both.
 # 2. Predict: what happens if a goal is out of reach, at (4, 0)? Then try it, with ``goals``
 #    of your own. How does the chain end?
-# 3. Start with all angles 0, and with the goal (0, 2). What happens, and why?
+# 3. Start with all angles 0, ``start = np.zeros(3)``, and with the goal (0, 2). What happens,
+#    and why?
 # 4. The chain has three angles, and the goal two coordinates. What is the third angle good
 #    for?
 #

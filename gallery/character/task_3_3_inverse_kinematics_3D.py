@@ -26,7 +26,8 @@ room |= {"xticks": (-2, 0, 2), "yticks": (-2, 0, 2), "zticks": (-2, 0, 2)}
 # %%
 # Expected result
 # ---------------
-# A chain of three links in space, and its shadow on the floor. Each joint has three angles.
+# A chain of three links in space, and a goal. Their shadows on the floor tell how near they are.
+# Each joint has three angles.
 
 from canim import character
 
@@ -45,8 +46,8 @@ def smoothly(angles, offsets, goal):
 fig = plt.figure(num="Expected result", figsize=(4.4, 4.2))
 ax = fig.add_subplot(projection="3d", **room)
 # Film: A chain of three blue links stands on its red root in the middle of a room, and throws
-# a shadow on the floor. An orange cross appears, and the chain bends until the square at its end
-# covers it; then the next one, three times.
+# a shadow on the floor. An orange cross with its own shadow appears, and the chain bends until
+# the square at its end covers it; then the next one, three times.
 expected_film = animate_chain(ax, smoothly, character.forward_kinematics_3d, start, offsets, goals)
 
 # %%

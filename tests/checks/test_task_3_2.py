@@ -236,3 +236,41 @@ def test_only_the_last_pose_is_not_all_of_them():
 
 def test_no_pose_at_all_is_told():
     assert "expected the angles after every step" in results(reach=lambda *_: [])["update"].message
+
+
+@pytest.mark.parametrize("left_out", [0, -1])
+def test_a_column_left_out_is_not_taken_for_a_jacobian_computed_once(left_out):
+    def some(angles, offsets):
+        J = jacobian(angles, offsets)
+        J[:, left_out] = 0
+        return J
+
+    found = results(jacobian=some, reach=lambda *args: reach(*args, of=some))
+    assert found["Jacobian"].state == "differs"
+    assert found["goals reached"].mistake == ""
+
+
+def test_an_arm_that_hardly_moves_has_no_habit():
+    found = results(reach=lambda *args: reach(*args, of=lambda *a: 1e6 * jacobian(*a)))
+    assert found["goals reached"].message.startswith("the end effector comes to")
+    assert found["goals reached"].mistake == ""
+
+
+def test_a_jump_is_told_with_the_jacobian():
+    def jumps(angles, offsets):
+        J, p = np.zeros((2, len(angles))), end(angles, offsets)
+        for i in range(len(angles)):
+            turned = angles.copy()
+            turned[i] = 1e-6
+            J[:, i] = (end(turned, offsets) - p) / 1e-6
+        return J
+
+    assert results(jacobian=jumps)["Jacobian"].mistake == "jump in place of movement"
+
+
+def test_a_wrong_jacobian_that_takes_long_does_not_make_a_right_stop_wrong():
+    def much_too_long(angles, offsets):
+        return 8 * jacobian(angles, offsets)
+
+    found = results(jacobian=much_too_long, reach=lambda *args: reach(*args, of=much_too_long))
+    assert found["stop"].state == "done"

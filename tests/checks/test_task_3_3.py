@@ -104,3 +104,30 @@ def test_the_jacobian_of_the_first_pose_is_told(alpha):
         return reach(angles, offsets, goal, alpha, of=lambda *_: J)
 
     assert results(reach=once)["goals reached"].mistake == "Jacobian computed once"
+
+
+def test_a_wrong_rotation_does_not_make_a_right_stop_wrong():
+    def turned_round(angles):
+        return rotation(angles).T
+
+    def end(angles, offsets):
+        place, R = np.zeros(3), np.eye(3)
+        for joint, offset in zip(angles, offsets):
+            R = R @ turned_round(joint)
+            place = place + R @ offset
+        return place
+
+    def reach(angles, offsets, goal):
+        poses = [angles]
+        while np.linalg.norm(goal - end(angles, offsets)) > 0.01 and len(poses) < 200:
+            tiny = 1e-6 * np.eye(angles.size).reshape(-1, *angles.shape)
+            p = end(angles, offsets)
+            J = np.transpose([(end(angles + turn, offsets) - p) / 1e-6 for turn in tiny])
+            change = 0.2 * np.linalg.pinv(J) @ (goal - p)
+            angles = angles + change.reshape(angles.shape)
+            poses.append(angles)
+        return poses
+
+    found = results(rotation=turned_round, reach=reach)
+    assert found["rotation"].state == "differs"
+    assert found["stop"].state == found["goals reached"].state == "done"

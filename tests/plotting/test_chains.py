@@ -144,6 +144,7 @@ def test_a_film_in_space(space):
     space.set_zlim(-1, 3)
     film = animate_chain(space, half_way, positions, start, start, goal)
     assert set(space.lines[0].get_data_3d()[2]) == {-1}
+    assert np.array_equal(np.ravel(space.lines[1].get_data_3d()), [1, 2, -1])
     assert np.array_equal(play(film)[1, 0], [(1, 2, 3), (0.5, 1, 1.5)])
 
 

@@ -212,6 +212,11 @@ TASK = Task(
             _wrong_rotation(lambda angle: rotation(np.pi / 2 - angle)),
         ),
         Mistake(
+            "whole numbers",
+            "R has only whole numbers, and what you put in is cut off. Start with np.eye(3).",
+            _wrong_rotation(lambda angle: np.trunc(rotation(angle))),
+        ),
+        Mistake(
             "moved, then turned",
             "Z R moves first and turns then: the new link does not turn. Which order is T?",
             _wrong_chain(link=_move_then_turn),
@@ -225,6 +230,11 @@ TASK = Task(
             "new link on the left",
             "The new link stands to the left of T. It starts where the chain ends so far.",
             _wrong_chain(join=lambda T, new, start: new @ T),
+        ),
+        Mistake(
+            "next joints not turned",
+            "The next links go straight on: they are moved, but not turned. Where is their R?",
+            _wrong_chain(link=lambda R, Z: Z),
         ),
         Mistake(
             "links not joined",
@@ -285,7 +295,7 @@ TASK = Task(
         ),
         Mistake(
             "last link left out",
-            "The last link is missing: where does your loop end?",
+            "The last link is missing: where does your loop end? Is return behind it, not in it?",
             _wrong_chain(links=lambda count: count - 1),
         ),
         Mistake(

@@ -24,6 +24,8 @@ QUICK = 40  # steps; who gives up before has not tried
 LONG = 100  # steps; who takes more does not stop
 TOUCHED = 1e-12  # marks a Jacobian of zeros that came from changing what the angles are
 GOES_ON, EARLY = 1.0, -1.0  # what is wrong with a stop
+HUGE = 1e3  # for an entry of a Jacobian: longer than all links together, by far
+HARDLY, ROUGHLY = 0.05, 0.01  # of a radian, of a step
 SAME_J, SAME_E = 1.0, 2.0  # what all steps have in common that should be new in each
 
 
@@ -134,22 +136,42 @@ def _step_in_words(got: Floats, expected: Floats, angles: Floats, *_: Any) -> st
 
 def _stopped(program: Any, angles: Floats, offsets: Floats, goal: Floats) -> Floats:
     """Return what is wrong with the stop, or 0."""
-    poses: Floats = program.reach(angles, offsets, goal)
     end = forward(angles, offsets)[-1]
     if np.array_equal(end, goal):
-        return np.array(GOES_ON if len(poses) > 2 else 0.0)
-    if _distance(poses[-1], offsets, goal) > NEAR:
+        ends = _ends(program, angles, offsets)
+        stops = any(len(program.reach(angles, offsets, end)) <= 2 for end in ends)
+        return np.array(0.0 if stops else GOES_ON)
+    poses: Floats = program.reach(angles, offsets, goal)
+    if _distance(program, poses[-1], offsets, goal) > NEAR:
         if len(poses) < QUICK:
             return np.array(EARLY)
         # Where nothing moves yet, only the goal itself can tell whether there is a stop.
         return np.array(0.0) if (poses != angles).any() else _stopped(program, angles, offsets, end)
-    return np.array(GOES_ON if len(poses) > LONG else 0.0)
+    # A wrong Jacobian takes many steps, too, but then the goal was not reached long before.
+    late = len(poses) > LONG
+    late = late and _distance(program, poses[3 * len(poses) // 4], offsets, goal) < TOLERANCE
+    return np.array(GOES_ON if late else 0.0)
 
 
-def _distance(angles: Floats, offsets: Floats, goal: Floats) -> float:
+def _ends(program: Any, angles: Floats, offsets: Floats) -> list[Floats]:
+    """Return where a chain ends, also with the student's R: where it is wrong, a stop can be right.
+
+    A reach that takes its R from elsewhere is right, too.
+    """
+    ends = [forward(angles, offsets)[-1]]
+    if angles.ndim == 2:
+        R, p = np.eye(3), np.zeros(3)
+        for joint, offset in zip(angles, offsets):
+            R = R @ program.rotation(joint)
+            p = p + R @ offset
+        ends.append(p)
+    return ends
+
+
+def _distance(program: Any, angles: Floats, offsets: Floats, goal: Floats) -> float:
     if not np.isfinite(angles).all():
         return np.inf
-    return float(np.linalg.norm(goal - forward(angles, offsets)[-1]))
+    return float(min(np.linalg.norm(goal - end) for end in _ends(program, angles, offsets)))
 
 
 def _never(got: Floats) -> bool:
@@ -169,19 +191,20 @@ def _arrived(program: Any, angles: Floats, offsets: Floats, goal: Floats) -> Flo
         return np.full(len(goal) + 1, np.nan)
     if not np.isfinite(poses).all():
         return np.full(len(goal) + 1, np.inf)
-    return np.append(forward(poses[-1], offsets)[-1], _habit(poses, offsets))
+    end = min(_ends(program, poses[-1], offsets), key=lambda end: float(np.linalg.norm(goal - end)))
+    return np.append(end, _habit(poses, angles, offsets))
 
 
-def _habit(poses: Floats, offsets: Floats) -> float:
+def _habit(poses: Floats, angles: Floats, offsets: Floats) -> float:
     changes = np.diff(poses, axis=0)
     changes = changes[changes.reshape(len(changes), -1).any(axis=1)].reshape(-1, poses[0].size)
-    dimension = offsets.shape[1]
-    if len(changes) < 5:
+    # Where the arm hardly moves, arrows and error stay the same in a right loop, too.
+    if len(changes) < 5 or np.ptp(poses, axis=0).max() < HARDLY:
         return 0.0
+    J = jacobian(angles, offsets)
     steps = changes / np.linalg.norm(changes, axis=1)[:, None]
-    sizes = np.linalg.svd(steps, compute_uv=False)
-    mixed = (sizes > 1e-6 * sizes[0]).sum()
-    if mixed == dimension < poses[0].size:
+    # A pseudoinverse of the first arrows gives steps that are mixed of the rows of that J.
+    if J.shape[0] < J.shape[1] and np.abs(steps - steps @ _pseudoinverse(J) @ J).max() < ROUGHLY:
         return SAME_J
     first, second = (jacobian(poses[k], offsets) @ changes[k] for k in (0, 1))
     far = np.linalg.norm(first)
@@ -287,6 +310,13 @@ def reaching_mistakes() -> tuple[Mistake, ...]:
             parts=(JACOBIAN,),
         ),
         Mistake(
+            "jump in place of movement",
+            "The numbers are huge: is it the end effector twice, and angle i larger by epsilon?",
+            {"jacobian": lambda *args: _places(*args) / 2},
+            lambda got, *_: bool(np.abs(got).max() > HUGE),
+            (JACOBIAN,),
+        ),
+        Mistake(
             "error turned round",
             "The arm moves away from the goal. From where to where must e point?",
             wrong_steps(error=lambda goal, p: p - goal),
@@ -338,7 +368,7 @@ def reaching_mistakes() -> tuple[Mistake, ...]:
         ),
         Mistake(
             "stop turned round",
-            "It stops while the goal is still far. Which sign belongs between e and tolerance?",
+            "It stops far from the goal, and goes on at the goal. Is the sign < turned round?",
             wrong_steps(near=lambda e: not _short(e)),
             parts=(STOP,),
         ),
@@ -369,7 +399,7 @@ def reaching_mistakes() -> tuple[Mistake, ...]:
         ),
         Mistake(
             "error computed once",
-            "The way to the goal is another one after each step. When do you calculate e?",
+            "e must be new after each step. When do you calculate it, and is p the end effector?",
             wrong_steps(same_e=True),
             lambda got, *_: bool(got[-1] == SAME_E),
             (GOALS,),

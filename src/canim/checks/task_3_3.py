@@ -70,6 +70,11 @@ def _overlapping(angles: Floats, offsets: Floats) -> Floats:
     return columns
 
 
+def _joints_as_in_the_plane(angles: Floats, offsets: Floats) -> Floats:
+    J = jacobian(angles, offsets).reshape(3, -1, 3)
+    return np.repeat(J.sum(axis=2), 3, axis=1)
+
+
 def _turn(*degrees: float) -> Case:
     angles: Floats = np.radians(np.array(degrees, dtype=float))
     return Case((angles,), f"angles {degrees}°")
@@ -173,6 +178,16 @@ TASK = Task(
             _wrong_rotation(lambda angles: rotation(np.radians(angles))),
         ),
         Mistake(
+            "degrees in place of radians",
+            "np.cos and np.sin want radians, but here they get degrees.",
+            _wrong_rotation(lambda angles: rotation(np.degrees(angles))),
+        ),
+        Mistake(
+            "entry by entry",
+            "Here * multiplies entry by entry. A product of matrices is written with @.",
+            _wrong_rotation(lambda angles: np.prod(list(map(about, range(3), angles)), axis=0)),
+        ),
+        Mistake(
             "only about x",
             "This turns about x alone. R is a product of three rotations.",
             _wrong_rotation(lambda angles: rotation(angles, (0,))),
@@ -186,6 +201,12 @@ TASK = Task(
             "about z left out",
             "The rotation about z is missing in the product.",
             _wrong_rotation(lambda angles: rotation(angles, (0, 1))),
+        ),
+        Mistake(
+            "all angles of a joint at once",
+            "The columns of a joint are alike: all its angles turn at once. Turn angle i, k alone.",
+            {"jacobian": _joints_as_in_the_plane},
+            parts=(JACOBIAN,),
         ),
         Mistake(
             "columns in another order",

@@ -28,6 +28,7 @@ _LINKS = {"color": "C0", "marker": "o", "markersize": 9, "linewidth": 5}
 _ROOT = {"color": "red", "marker": "o", "markersize": 13}
 _END = {"color": "C3", "marker": "s", "markersize": 11}
 _SHADOW = {"color": "#cfcfc8", "linewidth": 4}
+_SHADOW_OF_GOAL = {"color": "#cfcfc8", "marker": "x", "markersize": 9, "markeredgewidth": 3}
 
 
 def draw_chain(ax: Axes, positions: ArrayLike, *, ink: float = 1) -> None:
@@ -246,7 +247,7 @@ class _Shown:
         looks = (
             [_GOAL, _LINKS, _ROOT, _END]
             if len(goal) == 2
-            else [_SHADOW, _GOAL, _LINKS, _ROOT, _END]
+            else [_SHADOW, _SHADOW_OF_GOAL, _GOAL, _LINKS, _ROOT, _END]
         )
         self._lines = [_plot(ax, xyz, look) for look in looks]
         self.show(xyz, goal)
@@ -254,7 +255,7 @@ class _Shown:
     def show(self, xyz: Floats, goal: Floats) -> None:
         parts = [goal[None], xyz, xyz[:1], xyz[-1:]]
         if len(goal) == 3:
-            parts.insert(0, _on_the_floor(self._ax, xyz))
+            parts[:0] = _on_the_floor(self._ax, xyz), _on_the_floor(self._ax, goal[None])
         for line, points in zip(self._lines, parts, strict=True):
             (line.set_data if len(goal) == 2 else line.set_data_3d)(*points.T)
 
@@ -320,7 +321,7 @@ def _plot(ax: Any, points: Floats, look: dict[str, Any]) -> Any:
 
 
 def _on_the_floor(ax: Any, xyz: Floats) -> Floats:
-    """Return where the shadow is: without it, nobody sees how near a chain in space is."""
+    """Return the shadow: without it, nobody sees how near a chain or a goal in space is."""
     shadow = xyz.copy()
     shadow[:, 2] = ax.get_zlim()[0]
     return shadow
