@@ -44,7 +44,7 @@ right.plot(time, t, label="pucker")
 right.set(xlim=(0, 1), ylim=(-0.05, 1.05), xticks=(), xlabel="time", ylabel="weight")
 canim.plotting.label_curves(right)
 mouth_film = canim.plotting.animate_face(
-    left, face, poses, room=0.8, clock=right, times=time, hold=0
+    left, face, poses, room=0.9, clock=right, times=time, hold=0
 )
 
 # %%
@@ -53,12 +53,12 @@ mouth_film = canim.plotting.animate_face(
 # Picture: The same head 25 times, with names: neutral, blink left, blink right, brow down left,
 # and so on to tongue out. Each shows one small change: one eye is closed, a brow is up, the
 # cheeks are full of air, a corner of the mouth smiles.
-fig, axes = plt.subplots(5, 5, figsize=(6.4, 7.4))
+fig, axes = plt.subplots(5, 5, figsize=(6.4, 10.2))
 for ax in axes.flat:
     ax.set_axis_off()
 for ax, name, shape in zip(axes.flat, names, shapes):
-    canim.plotting.draw_face(ax, face, shape, room=0.74)
-    ax.set_title(name.replace("_", " "), fontsize=9.5, pad=2, loc="center")
+    canim.plotting.draw_face(ax, face, shape, room=0.9)
+    ax.set_title(name.replace("_", "\n", 1).replace("_", " "), fontsize=14, pad=2, loc="center")
 
 # %%
 # Theory
@@ -209,7 +209,7 @@ rows = [weights_at(t, len(shapes), first, second) for t in moments]
 poses = [global_blendshape(shapes, row) for row in rows]
 fig, ax = plt.subplots(num="Your film", figsize=(2.6, 3.4))
 # Film: The neutral head, which does not move. Nothing is written yet.
-your_film = canim.plotting.animate_face(ax, face, poses, room=0.8, hold=0)
+your_film = canim.plotting.animate_face(ax, face, poses, room=0.9, hold=0)
 your_film.save("film.gif", writer="pillow", fps=10, dpi=100)
 
 sliders = canim.plotting.weight_sliders(

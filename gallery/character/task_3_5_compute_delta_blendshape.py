@@ -36,8 +36,8 @@ speech = curves @ [face.weights(mixes[mix]) for mix in says]  # weights, frame b
 # %%
 # Expected result
 # ---------------
-# A face that speaks. It says "Mama! Oh!", blinks, and smiles. Each curve is the weight of a
-# mix of expressions; the curves are Hermite splines, as in Block 1.
+# A face that speaks. It says "Mama", blinks, says "Oh!", and smiles. Each curve is the weight of
+# a mix of expressions; the curves are Hermite splines, as in Block 1.
 
 from canim import character
 
@@ -52,7 +52,7 @@ for name, values in says.items():
     right.plot(fine, hermite_spline(fine, knots, values, 0 * knots), label=name)
 right.set(xlim=(0, times[-1]), ylim=(-0.05, 1.15), xlabel="seconds", ylabel="weight")
 canim.plotting.label_curves(right)
-talking_film = canim.plotting.animate_face(left, face, poses, room=0.8, clock=right, times=times)
+talking_film = canim.plotting.animate_face(left, face, poses, room=0.9, clock=right, times=times)
 
 # %%
 # A weight can be larger than 1. The expression is exaggerated, and the head keeps its size:
@@ -64,7 +64,7 @@ fig, axes = plt.subplots(2, 3, num="Expected result", figsize=(4.8, 4.2))
 for ax, (mix, weight) in zip(axes.flat, moods):
     row = weight * face.weights(mixes[mix])
     vertices = character.delta_blendshape(face.neutral, shapes, row)
-    canim.plotting.draw_face(ax, face, vertices, room=0.8)
+    canim.plotting.draw_face(ax, face, vertices, room=0.9)
     ax.set_title(f"{mix}, {weight:g}", fontsize=11)
 
 # %%
@@ -83,7 +83,7 @@ for ax, (mix, weight) in zip(axes.flat, moods):
 #
 # A delta is no face. It holds one arrow for each vertex: where to, and how far. Where the
 # expression changes nothing, the arrow is zero, and that is most of the head. Deltas are
-# **local**:
+# **local**. What moves is orange; the number says how many of all vertices move:
 
 shown = ["smile_left", "mouth_open", "blink_right", "brows_up_inner"]
 
@@ -96,7 +96,7 @@ for ax, name in zip(axes, shown):
     orange = (way / way.max())[:, None] ** 0.5
     colors = (1 - orange) * [0.75, 0.75, 0.75] + orange * [0.95, 0.35, 0.05]
     painted = character.Face(face.neutral, face.expressions, face.faces, colors)
-    canim.plotting.draw_face(ax, painted, room=0.8)
+    canim.plotting.draw_face(ax, painted, room=0.9)
     ax.set_title(f"{name.replace('_', ' ')}\nmoves {np.mean(way > 0):.0%}", fontsize=11)
 
 # %%
@@ -190,13 +190,13 @@ fig, axes = plt.subplots(2, 3, num="Yours", figsize=(4.8, 4.2))
 for ax, (mix, weight) in zip(axes.flat, moods):
     row = weight * face.weights(mixes[mix])
     vertices = delta_blendshape(face.neutral, shapes, row)
-    canim.plotting.draw_face(ax, face, vertices, room=0.8)
+    canim.plotting.draw_face(ax, face, vertices, room=0.9)
     ax.set_title(f"{mix}, {weight:g}", fontsize=11)
 
 poses = [delta_blendshape(face.neutral, shapes, row) for row in speech[::3]]
 fig, ax = plt.subplots(num="Your film", figsize=(2.6, 3.4))
 # Film: The neutral head, which does not move. Nothing is written yet.
-your_film = canim.plotting.animate_face(ax, face, poses, room=0.8, hold=0)
+your_film = canim.plotting.animate_face(ax, face, poses, room=0.9, hold=0)
 your_film.save("talk.gif", writer="pillow", fps=8, dpi=100)
 
 sliders = canim.plotting.weight_sliders(

@@ -86,6 +86,32 @@ def test_a_mistake_in_the_deltas_explains_the_sum_as_well():
     assert {r.mistake for r in found.values()} == {"difference the wrong way round"}
 
 
+@pytest.mark.parametrize(
+    ("kept", "mistake"),
+    [
+        (slice(1, None), "first weight taken for the neutral face"),
+        (slice(-1), "last shape left out"),
+        (slice(1), "only the first shape"),
+    ],
+)
+def test_a_loop_that_misses_expressions_is_told_in_the_deltas(kept, mistake):
+    def some(neutral, shapes):
+        changes = np.zeros(shapes.shape)
+        changes[kept] = shapes[kept] - neutral
+        return changes
+
+    assert results(deltas=some)["deltas"].mistake == mistake
+
+
+@pytest.mark.parametrize("instead", [1, np.nan])
+def test_weights_divided_by_their_sum_are_told_whatever_is_done_at_zero(instead):
+    def normalised(neutral, shapes, weights):
+        return added(neutral, shapes, weights / (weights.sum() or instead))
+
+    found = results(delta_blendshape=normalised)["weighted sum"]
+    assert found.mistake == "weights divided by their sum"
+
+
 def test_weights_below_zero_and_above_one_are_tried():
     def clipped(neutral, shapes, weights):
         return added(neutral, shapes, np.clip(weights, 0, 1))

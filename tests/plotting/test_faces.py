@@ -57,6 +57,15 @@ def test_the_picture_does_not_follow_the_vertices_so_that_scaling_is_seen(ax):
     assert area(ax) == pytest.approx(whole / 4, rel=0.03)
 
 
+def test_a_picture_that_is_too_small_cuts_the_neck_and_not_the_crown(ax):
+    draw_face(ax, mesh())
+    *_, bottom, top = ax.axis()
+    ax.clear()
+    draw_face(ax, mesh(), room=0.9)
+    assert ax.axis()[3] == pytest.approx(top)
+    assert ax.axis()[2] == pytest.approx(top - 0.9 * (top - bottom))
+
+
 def test_without_vertices_the_neutral_face_is_drawn(ax):
     draw_face(ax, mesh())
     neutral = picture(ax)

@@ -94,6 +94,12 @@ def _only(which: int) -> Callable[[float, int, int, int], Floats]:
     return weights_at
 
 
+def _same(t: float, count: int, first: int, second: int) -> Floats:
+    weights = _weights_at(t, count, first, second)
+    weights[first] = t
+    return weights
+
+
 def _whole(t: float, count: int, first: int, second: int) -> Floats:
     weights = _weights_at(t, count, first, second)
     weights[first] = 1
@@ -258,6 +264,11 @@ TASK = Task(
             "first shape always whole",
             "The first shape keeps the weight 1, so the sum is not 1. Which share is left for it?",
             {"weights_at": _whole},
+        ),
+        Mistake(
+            "both shapes with the same weight",
+            "Both shapes have the weight t. Which share is left for the first one?",
+            {"weights_at": _same},
         ),
         Mistake(
             "always shapes 0 and 1",

@@ -52,12 +52,24 @@ def _in_place(neutral: Floats, shapes: Floats, weights: Floats) -> Floats:
 
 
 def _normalised(neutral: Floats, shapes: Floats, weights: Floats) -> Floats:
-    face: Floats = neutral + mixed(shapes - neutral, weights) / weights.sum()
+    with np.errstate(invalid="ignore"):
+        face: Floats = neutral + mixed(shapes - neutral, weights) / weights.sum()
     return face
 
 
 def _sum(result: Callable[[Floats, Floats, Floats], Floats], **others: Any) -> dict[str, Any]:
     return {"delta_blendshape": result, **others}
+
+
+def _only(kept: slice) -> dict[str, Any]:
+    """Return what comes when a loop takes some of the expressions only."""
+
+    def deltas(neutral: Floats, shapes: Floats) -> Floats:
+        changes = np.zeros(shapes.shape)
+        changes[kept] = shapes[kept] - neutral
+        return changes
+
+    return _sum(lambda b, shapes, weights: blended(b, shapes[kept], weights[kept]), deltas=deltas)
 
 
 DELTAS, SUM = "deltas", "weighted sum"
@@ -114,7 +126,7 @@ TASK = Task(
     mistakes=(
         Mistake(
             "difference the wrong way round",
-            "Each delta points back to the neutral face. Which one is subtracted?",
+            "Everything moves the opposite way. Look at each minus, in the deltas and in the sum.",
             _sum(
                 lambda neutral, shapes, weights: neutral - mixed(shapes - neutral, weights),
                 deltas=_turned,
@@ -159,6 +171,15 @@ TASK = Task(
             ),
         ),
         Mistake(
+            "neutral added again for each shape",
+            "The neutral face is added again with each shape. It is there from the start.",
+            _sum(
+                lambda neutral, shapes, weights: (
+                    len(shapes) * neutral + blended(neutral, shapes, weights)
+                )
+            ),
+        ),
+        Mistake(
             "neutral added twice",
             "The neutral face is counted twice. Where does the sum start?",
             _sum(
@@ -172,8 +193,8 @@ TASK = Task(
         ),
         Mistake(
             "first weight taken for the neutral face",
-            "The first expression is left out. The neutral face has no weight here.",
-            _sum(lambda neutral, shapes, weights: blended(neutral, shapes[1:], weights[1:])),
+            "The first expression is left out. The neutral face is not in shapes, nor in weights.",
+            _only(slice(1, None)),
         ),
         Mistake(
             "neutral face with the first weight",
@@ -181,6 +202,15 @@ TASK = Task(
             _sum(
                 lambda neutral, shapes, weights: (
                     weights[0] * neutral + mixed(shapes - neutral, weights)
+                )
+            ),
+        ),
+        Mistake(
+            "first weight given to the neutral face",
+            "The first weight went to the neutral face. It belongs to the first expression.",
+            _sum(
+                lambda neutral, shapes, weights: (
+                    weights[0] * neutral + mixed(shapes[1:] - neutral, weights[1:])
                 )
             ),
         ),
@@ -196,7 +226,7 @@ TASK = Task(
         Mistake(
             "last shape left out",
             "The last expression is left out. Where does the loop end?",
-            _sum(lambda neutral, shapes, weights: blended(neutral, shapes[:-1], weights[:-1])),
+            _only(slice(-1)),
         ),
         Mistake(
             "weights not applied",
@@ -216,6 +246,9 @@ TASK = Task(
             "weights divided by their sum",
             "The weights were divided by their sum. Take them as they are.",
             _sum(_normalised),
+            parts=(SUM,),
+            # Where the sum is 0, some divide and some do not: compare what differs only.
+            applies=lambda got, _, *args: np.allclose(got, _normalised(*args), equal_nan=True),
         ),
         Mistake(
             "average of the deltas",
@@ -234,12 +267,12 @@ TASK = Task(
         Mistake(
             "only the last shape",
             "Only the last delta is left: each one replaces the one before. Add to it.",
-            _sum(lambda neutral, shapes, weights: blended(neutral, shapes[-1:], weights[-1:])),
+            _only(slice(-1, None)),
         ),
         Mistake(
             "only the first shape",
             "Only the first delta is there. Is the return inside the loop?",
-            _sum(lambda neutral, shapes, weights: blended(neutral, shapes[:1], weights[:1])),
+            _only(slice(1)),
         ),
     ),
     canim_functions=(character.delta_blendshape, character.global_blendshape),

@@ -74,7 +74,8 @@ def draw_face(
         Where the vertices are now. Without them the neutral face is drawn; where one is nan,
         it is said that the face is missing.
     room : float
-        Size of the picture: how many times the neutral face fits into it.
+        Size of the picture: how many times the neutral face fits into it. Below 1 the neck is
+        cut off.
     turn : float
         Angle in radians by which the head is turned to its own left.
 
@@ -256,7 +257,8 @@ class _Picture:
         self._turn = np.array([[cos, 0, sin], [0, 1, 0], [-sin, 0, cos]])
         x, y, z = room * _MARGIN * np.abs(self._surface.neutral).max(axis=0)
         x = np.hypot(x, z / 4)  # a head that is turned is wider
-        ax.set(xlim=(-x, x), ylim=(-y, y), aspect="equal")
+        lift = y * max(0, 1 / room - 1)  # cut the neck, not the crown
+        ax.set(xlim=(-x, x), ylim=(lift - y, lift + y), aspect="equal")
         ax.set_axis_off()
 
     def show(self, vertices: ArrayLike) -> None:
