@@ -274,3 +274,9 @@ def test_a_wrong_jacobian_that_takes_long_does_not_make_a_right_stop_wrong():
 
     found = results(jacobian=much_too_long, reach=lambda *args: reach(*args, of=much_too_long))
     assert found["stop"].state == "done"
+
+
+def test_an_arm_that_leaves_its_goal_is_told_without_an_untrue_hint():
+    found = results(reach=lambda angles, offsets, _: reach(angles, offsets, np.array([1.0, 1.0])))
+    assert found["stop"].message == "the arm is at the goal when it starts, and leaves it"
+    assert found["stop"].mistake == ""

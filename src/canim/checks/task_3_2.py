@@ -23,7 +23,7 @@ NEAR = 0.05  # from the goal: more than the tolerance, and much less than the wa
 QUICK = 40  # steps; who gives up before has not tried
 LONG = 100  # steps; who takes more does not stop
 TOUCHED = 1e-12  # marks a Jacobian of zeros that came from changing what the angles are
-GOES_ON, EARLY = 1.0, -1.0  # what is wrong with a stop
+GOES_ON, EARLY, LEAVES = 1.0, -1.0, 2.0  # what is wrong with a stop
 HUGE = 1e3  # for an entry of a Jacobian: longer than all links together, by far
 HARDLY, ROUGHLY = 0.05, 0.01  # of a radian, of a step
 SAME_J, SAME_E = 1.0, 2.0  # what all steps have in common that should be new in each
@@ -139,8 +139,11 @@ def _stopped(program: Any, angles: Floats, offsets: Floats, goal: Floats) -> Flo
     end = forward(angles, offsets)[-1]
     if np.array_equal(end, goal):
         ends = _ends(program, angles, offsets)
-        stops = any(len(program.reach(angles, offsets, end)) <= 2 for end in ends)
-        return np.array(0.0 if stops else GOES_ON)
+        tries = [program.reach(angles, offsets, end) for end in ends]
+        if any(len(poses) <= 2 for poses in tries):
+            return np.array(0.0)
+        far = _distance(program, tries[-1][-1], offsets, ends[-1]) > NEAR
+        return np.array(LEAVES if far else GOES_ON)
     poses: Floats = program.reach(angles, offsets, goal)
     if _distance(program, poses[-1], offsets, goal) > NEAR:
         if len(poses) < QUICK:
@@ -181,6 +184,8 @@ def _never(got: Floats) -> bool:
 def _stop_in_words(got: Floats, expected: Floats, *_: Any) -> str:
     if got == EARLY:
         return "the last pose is still far from the goal"
+    if got == LEAVES:
+        return "the arm is at the goal when it starts, and leaves it"
     return "the steps go on although the goal is reached"
 
 

@@ -11,6 +11,8 @@ from canim import character
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 from canim.checks.task_3_2 import (
     JACOBIAN,
+    STOP,
+    TOLERANCE,
     UPDATE,
     accept_poses,
     at_the_end,
@@ -19,6 +21,7 @@ from canim.checks.task_3_2 import (
     reaching_mistakes,
     reaching_parts,
     steps_to,
+    wrong_steps,
 )
 
 
@@ -140,7 +143,9 @@ TASK = Task(
                 Case(at_the_end(*PAGE), "goal at the end effector"),
                 *(
                     Case((*PAGE, END + way), "3 links")
-                    for way in np.array([[0.4, 0.4, -1.5], [-0.6, -0.7, -0.8], [-1.0, 0.0, 0.0]])
+                    for way in np.array(
+                        [[0.4, 0.4, -1.5], [-0.6, -0.7, -0.8], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.5]]
+                    )
                 ),
             ),
             _column,
@@ -225,6 +230,12 @@ TASK = Task(
             "The change has other columns than J has: whose angle is the second of them?",
             {"reach": lambda *args: steps_to(*args, shaped=lambda c: c.reshape(3, -1).T)},
             parts=(UPDATE,),
+        ),
+        Mistake(
+            "length without z",
+            "It stops where x and y are right, but not z. How long is all of e?",
+            wrong_steps(near=lambda e: bool(np.linalg.norm(e[:2]) < TOLERANCE)),
+            parts=(STOP,),
         ),
         *reaching_mistakes(),
     ),
