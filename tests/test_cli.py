@@ -181,6 +181,13 @@ def test_a_loop_without_end_is_ended(capsys):
     assert "did not end within 3 seconds" in " ".join(capsys.readouterr().out.split())
 
 
+def test_a_function_that_changes_what_it_is_given_does_not_pass(capsys):
+    changing = "\nright = hermite_basis\ndef hermite_basis(t):\n"
+    changing += "    basis = right(t)\n    t[:] = 0\n    return basis\n"
+    assert main(["check", write("mine.py", DONE + changing)]) == 1
+    assert "Task 1.1: 4 of 4 parts done." in capsys.readouterr().out
+
+
 def test_a_thread_that_goes_on_is_not_waited_for(capsys):
     thread = "\nimport threading, time\nthreading.Thread(target=time.sleep, args=[60]).start()\n"
     assert main(["check", "--time", "30", write("mine.py", DONE + thread)]) == 0

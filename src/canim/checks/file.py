@@ -76,6 +76,7 @@ def check_file(
         found,
         tuple(Result(**result) for result in told["results"]),
         notes=tuple(told["notes"]),
+        changing=tuple(told["changing"]),
         show_hints=hint,
         how_to_hint=how_to_hint,
         stopped=told["stopped"] and Crash(**told["stopped"]),
@@ -193,6 +194,7 @@ def _run_here(path: Path, task: Task) -> dict[str, Any]:
     return {
         "results": [asdict(result) for result in report.results],
         "notes": report.notes,
+        "changing": report.changing,
         "stopped": stopped,
         "answers": _as_text(answers) if isinstance(answers, dict) else {},
     }

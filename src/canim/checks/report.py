@@ -41,7 +41,8 @@ class Report:
     """What a check found: first what stops a function, then part by part.
 
     `notes` are sentences about the program as a whole; `answers` counts the questions
-    answered, where the file was seen; `stopped` says where the file itself crashed.
+    answered, where the file was seen; `stopped` says where the file itself crashed, and
+    `changing` names the functions that change their arguments: what comes after goes wrong.
     """
 
     task: Task
@@ -50,12 +51,13 @@ class Report:
     show_hints: bool = False
     how_to_hint: str = ""
     stopped: Crash | None = None
+    changing: tuple[str, ...] = ()
     answers: dict[str, str] | None = None
 
     @property
     def done(self) -> bool:
-        """Whether every part is done and the program ran to its end."""
-        return self.stopped is None and all(r.state == "done" for r in self.results)
+        """Whether every part is done, does no harm, and the program ran to its end."""
+        return not (self.stopped or self.changing) and all(r.state == "done" for r in self.results)
 
     @property
     def broken(self) -> bool:

@@ -51,6 +51,7 @@ def run(task: Task, names: Mapping[str, Any], *, hint: bool = False) -> Report:
         task,
         tuple(results),
         notes=tuple(_notes(student)),
+        changing=tuple(student.changes),
         show_hints=hint,
         how_to_hint="In your program, write hint=True into the call:\n"
         f'canim.check("{task.id}", hint=True, {arguments})',
