@@ -72,3 +72,10 @@ def test_other_vertices_are_drawn_larger(ax):
 def test_a_face_of_size_zero_is_not_seen(ax):
     draw_face(ax, Ball, 0 * BALL.vertices)
     assert area(ax) == 0
+
+
+def test_what_is_drawn_twice_is_rendered_once(ax, monkeypatch):
+    draw_face(ax, Ball)
+    first = picture(ax)
+    monkeypatch.setattr("canim.plotting.faces_3d._picture", None)
+    assert (picture(ax) == first).all()
