@@ -13,7 +13,7 @@ __all__ = ["lagrange_basis", "lagrange_interpolate"]
 _MOST_NODES = 10_000
 
 # So many points and nodes are taken at a time that a table of them stays in the cache.
-_POINTS, _NODES = 4096, 16
+_POINTS, _NODES = 3072, 24
 
 
 @np.errstate(all="ignore")
