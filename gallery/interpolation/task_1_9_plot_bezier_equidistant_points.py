@@ -197,5 +197,5 @@ for ax, dots, name in [
 # Read more
 # ---------
 # In canim: :func:`canim.interpolation.arc_length` and
-# :func:`canim.interpolation.equidistant_points`. This was the last task about curves. Next
-# come images: you bend them, and turn one face into another.
+# :func:`canim.interpolation.equidistant_points`. This was the last task about curves. Next:
+# :ref:`Task 2.1 <task-2-1>`, where you bend pictures.

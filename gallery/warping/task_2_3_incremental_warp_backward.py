@@ -171,7 +171,7 @@ def morph(image_a, image_b, points_a, points_b, triangles, t):
     a, b = image_a.astype(float), image_b.astype(float)  # with decimals: given
     blend = np.full(a.shape, hole, dtype=float)
     # TODO: points in between: at the moment t
-    # TODO: two warps: with canim.warping.warp_backward, a to these points, and b to these points
+    # TODO: two warps: with canim.warping.warp_backward, both a and b to these points
     # TODO: blend: mix the two warped images
     return np.round(blend).astype(np.uint8)  # rounded once: given
 
@@ -207,5 +207,5 @@ for ax, frame, t in zip(axes, frames[::5], moments[::5]):
 # Read more
 # ---------
 # In canim: :func:`canim.warping.morph`, :func:`canim.warping.morph_frames` and
-# :func:`canim.warping.save_gif`. This was the last task of the block: back to the
-# :ref:`first one <task-2-1>`.
+# :func:`canim.warping.save_gif`. This was the last task about pictures. Next:
+# :ref:`Task 3.1 <task-3-1>`, where you bend an arm.

@@ -63,7 +63,7 @@ def forward_kinematics_2d(
 
     Notes
     -----
-    Theory: Task 3.1.
+    Theory: :ref:`Task 3.1 <task-3-1>`.
 
     Examples
     --------
@@ -119,7 +119,7 @@ def forward_kinematics_3d(
 
     Notes
     -----
-    Theory: Task 3.3.
+    Theory: :ref:`Task 3.3 <task-3-3>`.
 
     Examples
     --------
@@ -175,8 +175,9 @@ def joint_transforms(
 
     Notes
     -----
-    Theory: Task 3.1. This is simpler than the notation of Denavit and Hartenberg, which gives
-    a link four numbers and makes every joint turn about the z axis of its own frame.
+    Theory: :ref:`Task 3.1 <task-3-1>`. This is simpler than the notation of Denavit and
+    Hartenberg, which gives a link four numbers and makes every joint turn about the z axis of
+    its own frame.
 
     References
     ----------
@@ -242,7 +243,7 @@ def numeric_jacobian(
 
     Notes
     -----
-    Theory: Task 3.2.
+    Theory: :ref:`Task 3.2 <task-3-2>`.
 
     Examples
     --------
@@ -315,7 +316,7 @@ def jacobian_2d(angles: ArrayLike, offsets: ArrayLike) -> Floats:
 
     Notes
     -----
-    Theory: Task 3.2.
+    Theory: :ref:`Task 3.2 <task-3-2>`.
 
     References
     ----------
@@ -370,7 +371,7 @@ def jacobian_3d(angles: ArrayLike, offsets: ArrayLike) -> Floats:
 
     Notes
     -----
-    Theory: Task 3.3.
+    Theory: :ref:`Task 3.3 <task-3-3>`.
 
     References
     ----------

@@ -160,7 +160,7 @@ def inverse_kinematics(
 
     Notes
     -----
-    Theory: Task 3.2.
+    Theory: :ref:`Task 3.2 <task-3-2>`.
 
     * ``"pseudoinverse"`` and ``"damped"`` follow the formulas above. A step looks ahead by at
       most a quarter of the chain's length and turns no joint by more than 0.49 radians, as a
@@ -272,7 +272,7 @@ def inverse_kinematics_batch(
 
     Notes
     -----
-    Theory: Task 3.2.
+    Theory: :ref:`Task 3.2 <task-3-2>`.
 
     Examples
     --------
