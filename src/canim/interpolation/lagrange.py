@@ -207,8 +207,9 @@ def _are_steady(z: Floats, size: float, weights: Floats) -> bool:
     ranked = np.sort(z)
     middles = (ranked[1:] + ranked[:-1]) / 2
     for start in range(0, middles.size, _NODES):
-        terms = weights * (size / (middles[start : start + _NODES, np.newaxis] - z))
-        if not (np.abs(terms).sum(axis=1) <= _MOST_LOST * np.abs(terms.sum(axis=1))).all():
+        ratios = size / (middles[start : start + _NODES, np.newaxis] - z)
+        product = np.abs(ratios @ weights)
+        if not (np.abs(ratios) @ np.abs(weights) <= _MOST_LOST * product).all():
             return False
     return True
 
