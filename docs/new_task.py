@@ -135,7 +135,10 @@ TASK = Task(
     ),
     # FILL IN: a part for each piece of the pseudocode
     parts=(Part("curve", lambda program, t: program.$name(t), CASES, at("t")),),
-    # FILL IN: at least three, each a Mistake("name", "A hint of one sentence.", {...})
+    # FILL IN: for each part, the line of the pseudocode that it belongs to
+    lines={"curve": ""},
+    # FILL IN: at least three, each a
+    # Mistake("name", "A hint of one sentence.", {...}, source="authors")
     mistakes=(),
 )
 '''

@@ -23,7 +23,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     check = commands.add_parser("check", help="check a program or notebook")
     check.add_argument("file", type=Path, help="a .py or .ipynb file")
     check.add_argument("--task", help="number of the task, where the file does not say it")
-    check.add_argument("--hint", action="store_true", help="show hints for known mistakes")
+    check.add_argument(
+        "--hint",
+        action="count",
+        default=0,
+        help="show hints for known mistakes; given twice, also the lines of the pseudocode",
+    )
     check.add_argument(
         "--time", type=seconds, default=60, metavar="SECONDS", help="limit (default: %(default)s)"
     )
@@ -63,7 +68,7 @@ def _start(number: str) -> int:
     return 0
 
 
-def _check(path: Path, task: str | None, hint: bool, limit: float) -> int:
+def _check(path: Path, task: str | None, hint: int, limit: float) -> int:
     from canim.checks.file import UnusableFile, check_file
 
     try:

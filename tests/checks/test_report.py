@@ -3,6 +3,7 @@
 import io
 import sys
 import types
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -14,10 +15,13 @@ from canim.checks.crash import Crash
 from canim.checks.report import Report, Result
 
 TASK = checks.TASKS["1.1"]
+LINE = "H1, <line>"
 RESULTS = (
     Result("H0, start value", "done"),
-    Result("H1, end value", "differs", "at t = 1: expected 1, got <0>", "misprint", "Look & see."),
-    Result("H2, start slope", "differs", "at t = 1: expected 1, got 2", "misprint", "Look & see."),
+    Result(
+        "H1, end value", "differs", "at t = 1: expected 1, got <0>", "misprint", "Look & see.", LINE
+    ),
+    Result("H2, start slope", "differs", "expected 1, got 2", "misprint", "Look & see.", LINE),
     Result("H3, end slope", "unwritten"),
 )
 
@@ -91,15 +95,48 @@ class _Balanced(HTMLParser):
         self.text += data
 
 
-@pytest.mark.parametrize("show", [False, True])
-def test_html_is_balanced_escaped_and_folds_the_hint(show):
+@pytest.mark.parametrize("show", [0, 1, 2])
+def test_html_is_balanced_escaped_and_folds_the_hint_and_in_it_the_line(show):
     page = _Balanced()
     page.feed(Report(TASK, RESULTS, notes=("a\nb",), show_hints=show)._repr_html_())
     assert page.open == []
     assert "got <0>" in page.text
     folds = [attributes for tag, attributes in page.seen if tag == "details"]
-    assert folds == [{"open": None} if show else {}]
+    assert folds == [{"open": None} if show >= step else {} for step in (1, 2)]
+    assert page.text.index("Hint") < page.text.index("Line of the pseudocode")
     assert "script" not in [tag for tag, _ in page.seen]
+
+
+def test_hints_come_in_three_steps():
+    how = ("Say hint.", "Say line.")
+    texts = [str(Report(TASK, RESULTS, show_hints=n, how_to_hint=how)) for n in (0, 1, 2)]
+    for text, hint, line, asks in zip(
+        texts, (False, True, True), (False, False, True), (how[0], how[1], ""), strict=True
+    ):
+        assert ("Look & see." in text) == hint
+        assert ("Pseudocode: H1, <line>" in text) == line
+        assert [words for words in how if words in text] == ([asks] if asks else [])
+
+
+def test_without_a_line_there_is_no_third_step():
+    plain = [replace(result, line="") for result in RESULTS]
+    text = str(Report(TASK, tuple(plain), show_hints=1, how_to_hint=("", "Say line.")))
+    assert "Say line." not in text
+    assert "Pseudocode" not in str(Report(TASK, tuple(plain), show_hints=2))
+    assert Report(TASK, tuple(plain), show_hints=2)._repr_html_().count("<details") == 1
+
+
+def test_two_mistakes_in_two_parts_give_two_hints_in_their_order():
+    other = replace(RESULTS[2], mistake="another", hint="Think.")
+    report = Report(TASK, (*RESULTS[:2], other, RESULTS[3]), show_hints=1)
+    assert report.hints == [("H1, end value", "Look & see."), ("H2, start slope", "Think.")]
+    assert str(report).index("Look & see.") < str(report).index("Think.")
+
+
+@pytest.mark.parametrize("hint", [3, -1, "yes", None])
+def test_a_step_of_hints_that_there_is_not_is_refused(hint):
+    with pytest.raises(ValueError, match="hint must be False, True or 2"):
+        checks.check("1.1", hint=hint, hermite_basis=lambda t: None)
 
 
 def test_a_terminal_without_the_marks_gets_plain_ones(monkeypatch):

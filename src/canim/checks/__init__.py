@@ -61,7 +61,7 @@ def find(task: str) -> Task:
     return TASKS[task]
 
 
-def check(task: str, *, hint: bool = False, **functions: Any) -> None:
+def check(task: str, *, hint: int = False, **functions: Any) -> None:
     """Show what is right, what is missing and what to look at in a student's program.
 
     Where a function crashes, or returns what cannot be drawn, the program ends here.
@@ -70,15 +70,16 @@ def check(task: str, *, hint: bool = False, **functions: Any) -> None:
     ----------
     task : str
         Number of the task, such as "1.1".
-    hint : bool
-        Whether to show the hints of the mistakes that were recognised.
+    hint : bool or int
+        Whether to show the hints of the mistakes that were recognised; with 2 also the line
+        of the pseudocode that each belongs to.
     **functions
         The functions, and for some tasks the data, that the task asks for, by name.
 
     Raises
     ------
     ValueError
-        If there is no such task.
+        If there is no such task, or `hint` is none of the above.
     TypeError
         If `task` is not a text, or the task does not know one of the names.
 
@@ -96,6 +97,8 @@ def check(task: str, *, hint: bool = False, **functions: Any) -> None:
     All checks of Task 1.1 pass.
     """
     found = find(task)
+    if hint not in (0, 1, 2):
+        raise ValueError(f"hint must be False, True or 2, but is {hint!r}.")
     for name in functions:
         if name not in found.names:
             raise TypeError(

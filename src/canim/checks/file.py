@@ -28,9 +28,7 @@ class UnusableFile(Exception):
     """The file cannot be checked; the message says why."""
 
 
-def check_file(
-    path: Path, *, task: str | None = None, hint: bool = False, limit: float = 60
-) -> Report:
+def check_file(path: Path, *, task: str | None = None, hint: int = 0, limit: float = 60) -> Report:
     """Run the file in a fresh process without windows and return the report on it.
 
     Parameters
@@ -40,8 +38,9 @@ def check_file(
     task : str, optional
         Number of the task; otherwise that of the file's call of ``canim.check``, or of
         its name.
-    hint : bool
-        Whether to show the hints of the mistakes that were recognised.
+    hint : int
+        1 to show the hints of the mistakes that were recognised, 2 to show also the line of
+        the pseudocode that each belongs to.
     limit : float
         Time in seconds after which the program is ended.
 
@@ -51,7 +50,7 @@ def check_file(
         If the file is not there, is not a task or cannot be read as Python.
     """
     found = _task_of(path, [tree for tree, _ in _parsed(path)], task)
-    how_to_hint = f"Type: {_command(path, task)}"
+    how_to_hint = (f"Type: {_command(path, task, 1)}", f"Type: {_command(path, task, 2)}")
     with tempfile.TemporaryDirectory() as folder:
         answer = Path(folder) / "report.json"
         try:
@@ -84,11 +83,11 @@ def check_file(
     )
 
 
-def _command(path: Path, task: str | None) -> str:
-    """Return what to type to see the hints."""
+def _command(path: Path, task: str | None, step: int) -> str:
+    """Return what to type to see this step of the hints."""
     named = f"--task {task} " if task else ""
     file = f'"{path}"' if " " in str(path) else str(path)
-    return f"canim check --hint {named}{file}"
+    return f"canim check {'--hint ' * step}{named}{file}"
 
 
 def _empty(task: Task, reason: str) -> Report:

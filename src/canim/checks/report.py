@@ -27,18 +27,25 @@ PLAIN_MARKS = {"✓": "+", "○": "o", "✗": "x", "–": "-"}
 
 @dataclass(frozen=True)
 class Result:
-    """What the check found for one part; `hint` is the hint of the mistake recognised."""
+    """What the check found for one part.
+
+    `hint` is that of the mistake recognised, `line` the pseudocode's line that it belongs to.
+    """
 
     part: str
     state: str
     message: str = ""
     mistake: str = ""
     hint: str = ""
+    line: str = ""
 
 
 @dataclass(frozen=True, repr=False)
 class Report:
     """What a check found: first what stops a function, then part by part.
+
+    Hints come in steps: `show_hints` is 0 for none, 1 for the hint, 2 for the line of the
+    pseudocode too; `how_to_hint` says how to ask for each of these steps.
 
     `notes` are sentences about the program as a whole; `answers` counts the questions
     answered, where the file was seen; `stopped` says where the file itself crashed, and
@@ -48,8 +55,8 @@ class Report:
     task: Task
     results: tuple[Result, ...]
     notes: tuple[str, ...] = ()
-    show_hints: bool = False
-    how_to_hint: str = ""
+    show_hints: int = 0
+    how_to_hint: tuple[str, str] = ("", "")
     stopped: Crash | None = None
     changing: tuple[str, ...] = ()
     answers: dict[str, str] | None = None
@@ -80,11 +87,13 @@ class Report:
     @property
     def hints(self) -> list[tuple[str, str]]:
         """Part and hint of every mistake recognised, each once, at its first part."""
-        first: dict[str, tuple[str, str]] = {}
-        for r in self.results:
-            if r.mistake:
-                first.setdefault(r.mistake, (r.part, r.hint))
-        return list(first.values())
+        return [(r.part, r.hint) for r in self._recognised]
+
+    @property
+    def _recognised(self) -> list[Result]:
+        """The first result of every mistake recognised."""
+        first = {r.mistake: r for r in reversed(self.results) if r.mistake}
+        return [r for r in self.results if r in first.values()]
 
     @property
     def _endings(self) -> list[str]:
@@ -103,7 +112,7 @@ class Report:
 
     def __str__(self) -> str:
         name_width = max(len(r.part) for r in self.results) + 2
-        hints = dict(self.hints) if self.show_hints else {}
+        hinted = self._recognised if self.show_hints else ()
         lines = [f"Task {self.task.id}: {self.task.title}"]
         for problem in self.problems:
             lines += _wrapped(problem, "  ✗ ")
@@ -111,14 +120,24 @@ class Report:
             mark, words = STATES[r.state]
             head = f"  {mark} {r.part:<{name_width}}"
             lines += _wrapped(words if r.state in BROKEN else r.message or words, head)
-            if r.part in hints:
-                lines += _wrapped(f"Hint: {hints[r.part]}", " " * len(head))
+            if r in hinted:
+                lines += _wrapped(f"Hint: {r.hint}", " " * len(head))
+                if self.show_hints > 1 and r.line:
+                    lines += _wrapped(f"Pseudocode: {r.line}", " " * len(head))
         for line in self._endings:
             lines += _wrapped(line, "  ")
         lines.append(self.summary)
-        if self.hints and not self.show_hints:
-            lines += _wrapped(f"There is a hint. {self.how_to_hint}", "")
+        lines += self._next_step
         return "\n".join(lines)
+
+    @property
+    def _next_step(self) -> list[str]:
+        """How to see more, where there is more."""
+        if self.hints and not self.show_hints:
+            return _wrapped(f"There is a hint. {self.how_to_hint[0]}", "")
+        if self.show_hints == 1 and any(r.line for r in self._recognised):
+            return _wrapped(f"Where in the pseudocode? {self.how_to_hint[1]}", "")
+        return []
 
     def _repr_html_(self) -> str:
         rows = "".join(self._row(r) for r in self.results)
@@ -134,11 +153,16 @@ class Report:
             f"<tbody>{rows}</tbody></table>{endings}</div>"
         )
 
+    def _fold(self, title: str, content: str, step: int) -> str:
+        opened = " open" if self.show_hints >= step else ""
+        return f"<details{opened}><summary>{title}</summary>{content}</details>"
+
     def _row(self, r: Result) -> str:
         mark, words = STATES[r.state]
-        hint = dict(self.hints).get(r.part)
-        opened = " open" if self.show_hints else ""
-        fold = f"<details{opened}><summary>Hint</summary>{escape(hint)}</details>" if hint else ""
+        fold = ""
+        if r in self._recognised:
+            line = self._fold("Line of the pseudocode", f"<code>{escape(r.line)}</code>", 2)
+            fold = self._fold("Hint", escape(r.hint) + (line if r.line else ""), 1)
         cell = "text-align:left;vertical-align:top"
         return (
             f'<tr class="canim-{r.state}"><th scope="row" style="{cell}">{escape(r.part)}</th>'

@@ -19,8 +19,8 @@ Compared = list[tuple[tuple[Any, ...], str, np.ndarray, np.ndarray]]
 
 # Differences of infinite results are nan, and their warnings would show our lines.
 @np.errstate(all="ignore")
-def run(task: Task, names: Mapping[str, Any], *, hint: bool = False) -> Report:
-    """Return the report on the functions and data in `names`."""
+def run(task: Task, names: Mapping[str, Any], *, hint: int = 0) -> Report:
+    """Return the report on the functions and data in `names`, with hints up to step `hint`."""
     student = Program(task, names)
     own_data = {data.name: names.get(data.name) for data in task.data}
     free = {f.name: names.get(f.name) for f in task.functions if f.reference is None}
@@ -41,10 +41,7 @@ def run(task: Task, names: Mapping[str, Any], *, hint: bool = False) -> Report:
         results.append(result)
     explained = _explain(task, wrong, given)
     results = [
-        Result(r.part, r.state, r.message, explained[r.part].name, explained[r.part].hint)
-        if r.part in explained
-        else r
-        for r in results
+        _with_hint(r, explained[r.part], task) if r.part in explained else r for r in results
     ]
     arguments = ", ".join(f"{name}={name}" for name in task.names)
     return Report(
@@ -53,9 +50,18 @@ def run(task: Task, names: Mapping[str, Any], *, hint: bool = False) -> Report:
         notes=tuple(_notes(student)),
         changing=tuple(student.changes),
         show_hints=hint,
-        how_to_hint="In your program, write hint=True into the call:\n"
-        f'canim.check("{task.id}", hint=True, {arguments})',
+        how_to_hint=(
+            f"In your program, write hint=True into the call:\n"
+            f'canim.check("{task.id}", hint=True, {arguments})',
+            f"In your program, write hint=2 into the call:\n"
+            f'canim.check("{task.id}", hint=2, {arguments})',
+        ),
     )
+
+
+def _with_hint(result: Result, mistake: Mistake, task: Task) -> Result:
+    line = mistake.line or task.lines.get(result.part, "")
+    return replace(result, mistake=mistake.name, hint=mistake.hint, line=line)
 
 
 def _compare(

@@ -18,6 +18,19 @@ BLOCKS = {
 }
 
 
+# Where known mistakes come from: the first word of a mistake's source, and what it means.
+SOURCES = {
+    "paper": "An error of the paper, or a place that it leaves open.",
+    "matlab": "An error of the course's first form, in MATLAB.",
+    "study": "A kind of error that Alzahrani and Vahid found in 47 studies of beginners.",
+    "thread": "A question that somebody asked in public about a program with this error.",
+    "trial": "A program that a reader of the page wrote before knowing the check.",
+    "neighbour": "What is right in another task, or for a similar formula.",
+    "notation": "Other books or libraries write it in this way.",
+    "authors": "A slip that nobody was seen to make yet: the authors of the task expect it.",
+}
+
+
 class Unusable(Exception):
     """What the student's function returned cannot be compared; the message says why."""
 
@@ -133,6 +146,8 @@ class Mistake:
 
     It is recognised in a part where it gives what the student got, or, where that
     cannot be compared, by `applies(got, expected, *args)`, in the parts named in `parts`.
+    `source` says who went wrong so, beginning with a word of `SOURCES`. `line` is the line
+    of the page's pseudocode to look at, where it is another one than that of the part.
     """
 
     name: str
@@ -140,11 +155,16 @@ class Mistake:
     program: Mapping[str, Any]
     applies: Callable[..., bool] | None = None
     parts: tuple[str, ...] = ()
+    source: str = ""
+    line: str = ""
 
 
 @dataclass(frozen=True)
 class Task:
-    """A task of the course: all that cards, index, command line and checks know of it."""
+    """A task of the course: all that cards, index, command line and checks know of it.
+
+    `lines` gives, for each part, its line of the page's pseudocode.
+    """
 
     id: str
     name: str
@@ -157,6 +177,7 @@ class Task:
     functions: tuple[Function, ...]
     parts: tuple[Part, ...]
     mistakes: tuple[Mistake, ...]
+    lines: Mapping[str, str] = field(default_factory=dict)
     data: tuple[Data, ...] = ()
     builds_on: tuple[str, ...] = ()
     canim_functions: tuple[Callable[..., Any], ...] = field(default=())

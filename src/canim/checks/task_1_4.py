@@ -255,36 +255,49 @@ TASK = Task(
             describe=_at_x,
         ),
     ),
+    lines={
+        "f, your curve": "return the height of your curve",
+        "nodes, three or more": "nodes: three places or more",
+        "values, the samples": "value k = f at node k",
+        "L, the rebuilt curve": "L = the Lagrange curve through these",
+    },
     mistakes=(
         Mistake(
             "places as values",
             "Your samples are the nodes themselves. What turns a place into a height?",
             {"sample": _places_as_values, "interpolate": _straight_through_places},
+            source="study: variable",
         ),
         Mistake(
             "sampled at 0, 1, 2",
             "You sample at 0, 1, 2 and so on. Where are the places to sample at?",
             {"sample": _at_numbers, "interpolate": _through_samples_at_numbers},
+            source="study: array",
         ),
         Mistake(
             "first three nodes only",
             "The nodes after the third are left out. How many nodes are there?",
             {"sample": _first_three, "interpolate": _through_first_three},
+            source="matlab: written for a fixed number of points",
+            line="for every node k:",
         ),
         Mistake(
             "nodes and values exchanged",
             "Look at the order of what you hand to lagrange_interpolate.",
             {"interpolate": _exchanged},
+            source="study: function",
         ),
         Mistake(
             "straight pieces",
             "Your curve is a chain of straight pieces. Which curve did Task 1.3 make?",
             {"interpolate": _straight_pieces},
+            source="neighbour: np.interp, as in Task 1.9",
         ),
         Mistake(
             "f itself",
             "This is f itself. L may only use the samples.",
             {"interpolate": _f_itself},
+            source="study: concept",
         ),
     ),
 )

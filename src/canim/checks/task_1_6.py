@@ -182,6 +182,11 @@ TASK = Task(
         ),
         Part(WAYS, _ways, CASES, _row_of_way, unwritten=_no_curves),
     ),
+    lines={
+        "first curve": "t to the power i, times 1 - t to the power n - i",
+        "powers": "t to the power i, times 1 - t to the power n - i",
+        "number of ways": "n choose i",
+    },
     mistakes=(
         Mistake(
             "t and 1 - t swapped",
@@ -189,6 +194,7 @@ TASK = Task(
             {"bernstein_basis": _times_swapped},
             _with(_times_swapped),
             (FIRST, POWERS),
+            source="study: variable",
         ),
         Mistake(
             "n instead of n + 1 curves",
@@ -196,6 +202,8 @@ TASK = Task(
             {"bernstein_basis": _last_row_missing},
             _last_row,
             (POWERS,),
+            source="paper: Eq. 9 takes n for both the number and the degree",
+            line="for i from 0 to n:",
         ),
         Mistake(
             "return in the loop",
@@ -203,6 +211,8 @@ TASK = Task(
             {"bernstein_basis": _second_row_only},
             _rows_after_it,
             (POWERS,),
+            source="study: function",
+            line="return the n + 1 rows",
         ),
         Mistake(
             "power n of 1 - t",
@@ -210,6 +220,7 @@ TASK = Task(
             {"bernstein_basis": _power_n_of_the_rest},
             _with(_power_n_of_the_rest),
             (POWERS,),
+            source="study: computation",
         ),
         Mistake(
             "exponent without brackets",
@@ -217,6 +228,7 @@ TASK = Task(
             {"bernstein_basis": _minus_after_power},
             _minus_i,
             (POWERS,),
+            source="study: computation",
         ),
         Mistake(
             "no powers of 1 - t",
@@ -224,24 +236,30 @@ TASK = Task(
             {"bernstein_basis": _powers_of_t_alone},
             _with(_powers_of_t_alone),
             (POWERS,),
+            source="study: computation",
         ),
         Mistake(
             "no number of ways",
             "The powers stand for one series of tosses. How many series have heads i times?",
             {"bernstein_basis": _powers},
             parts=(WAYS,),
+            source="study: computation",
+            line="number of ways times powers",
         ),
         Mistake(
             "comb turned round",
             "You choose i of n tosses: in which order does comb want the two numbers?",
             {"bernstein_basis": _comb_turned_round},
             parts=(WAYS,),
+            source="study: function",
         ),
         Mistake(
             "degree 3 only",
             "All is right for n = 3. Is there a number in your loop where n belongs?",
             {"bernstein_basis": _only_degree_3},
             _right_for_3,
+            source="matlab: written for a fixed number of points",
+            line="for i from 0 to n:",
         ),
     ),
     canim_functions=(interpolation.bernstein_basis,),

@@ -258,42 +258,64 @@ TASK = Task(
             _coordinate,
         ),
     ),
+    lines={
+        "next handle": "next handle: go from second_last to last, then the same way once more",
+        "joint 1 to 2": (
+            "joint 1 to 2: segment 2 starts where segment 1 ends, with the next "
+            "handle; then come two free points"
+        ),
+        "joint 2 to 3": "joint 2 to 3: the same for segment 3",
+        "joint 3 to 4": "joint 3 to 4: the same for segment 4",
+        "joint 4 to 1": (
+            "joint 4 to 1: segment 4 ends where segment 1 starts; its last handle "
+            "is found from the first handle of segment 1, as a next handle is"
+        ),
+        "scale": "scale: multiply x and y",
+        "move": "move: add to x and to y",
+        "scale, turn, move": "turn by the angle",
+    },
     mistakes=(
         Mistake(
             "handle copied",
             "This handle lies back on the curve. In which direction must the next one go on?",
             {"next_handle": lambda second_last, last: second_last},
             parts=("next handle",),
+            source="study: concept",
         ),
         Mistake(
             "mirrored about the wrong point",
             "You go on from the wrong one of the two points: the joint is at last.",
             {"next_handle": lambda second_last, last: 2 * second_last - last},
             parts=("next handle",),
+            source="study: variable",
         ),
         Mistake(
             "mirrored about the origin",
             "This goes through (0, 0). The way must go through the joint, which is at last.",
             {"next_handle": lambda second_last, last: -second_last},
             parts=("next handle",),
+            source="study: concept",
         ),
         Mistake(
             "the joint itself",
             "This is the joint itself. The handle lies further on: which way, and how far?",
             {"next_handle": lambda second_last, last: last},
             parts=("next handle",),
+            source="study: variable",
         ),
         Mistake(
             "only x goes on",
             "Only x goes on. What has y to do in the next handle?",
             {"next_handle": _only_x_goes_on},
             parts=("next handle",),
+            source="study: computation",
         ),
         Mistake(
             "way instead of point",
             "This is only the way from one point to the other. From where does it start?",
             {"next_handle": lambda second_last, last: last - second_last},
             parts=("next handle",),
+            source="study: concept",
         ),
         Mistake(
             "gap",
@@ -301,6 +323,7 @@ TASK = Task(
             _shape(((2, 0), (40.0, -10.0))),
             _gap,
             JOINTS[:3],
+            source="authors",
         ),
         Mistake(
             "not closed",
@@ -308,6 +331,7 @@ TASK = Task(
             _shape(((3, 3), (8.0, -12.0))),
             _gap,
             JOINTS[3:],
+            source="authors",
         ),
         Mistake(
             "handle copied at a joint",
@@ -315,6 +339,7 @@ TASK = Task(
             _shape(((3, 1), (20.0, -18.0))),
             _copied,
             JOINTS,
+            source="study: concept",
         ),
         Mistake(
             "other length",
@@ -322,6 +347,7 @@ TASK = Task(
             _shape(((2, 1), (47.0, -14.0))),
             _other_length,
             JOINTS,
+            source="authors",
         ),
         Mistake(
             "kink",
@@ -329,6 +355,7 @@ TASK = Task(
             _shape(((3, 1), (6.0, 0.0))),
             _free,
             JOINTS[:3],
+            source="matlab: the joint at (13, -10) is kinked",
         ),
         Mistake(
             "last handle chosen freely",
@@ -336,36 +363,47 @@ TASK = Task(
             _shape(((3, 2), (-3.0, -10.0))),
             _free,
             JOINTS[3:],
+            source="matlab: the joint at (13, -10) is kinked",
         ),
         Mistake(
             "moved before scaling",
             "The move is scaled as well: in which order must the two come?",
             _transform(_scaled_last),
             parts=MOVED,
+            source="study: computation",
+            line="scale: multiply x and y",
         ),
         Mistake(
             "moved before turning",
             "The move is turned as well: write it below the line that turns.",
             _transform(_turned_last),
             parts=MOVED,
+            source="study: computation",
+            line="turn by the angle",
         ),
         Mistake(
             "y not moved",
             "Only x is moved. What has y to do?",
             _transform(_y_stays),
             parts=MOVED,
+            source="study: computation",
+            line="move: add to x and to y",
         ),
         Mistake(
             "same move for x and y",
             "x and y are moved by the same number, but the move has two.",
             _transform(_x_for_both),
             parts=MOVED,
+            source="study: array",
+            line="move: add to x and to y",
         ),
         Mistake(
             "only x scaled",
             "Is y scaled as well?",
             _transform(_only_x_scaled),
             parts=("scale", *MOVED),
+            source="study: computation",
+            line="scale: multiply x and y",
         ),
     ),
     canim_functions=(interpolation.next_control_point, interpolation.transform_points),

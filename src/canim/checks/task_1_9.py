@@ -166,30 +166,43 @@ TASK = Task(
         Part(ENDS, _ends, POINTS, _end, unwritten=_column_missing, tolerance=3e-4),
         Part(SPACING, _between, POINTS, _inner, unwritten=_column_missing, tolerance=3e-4),
     ),
+    lines={
+        "length": "add its length to the length",
+        "places: both ends": "goals: count distances in equal steps, from 0 to the whole length",
+        "places: equal spacing": "places: x and y at each goal, from the table",
+    },
     mistakes=(
         Mistake(
             "last chord missing",
             "Ten points have nine chords. How many does your loop add?",
             {"compute_arc_length": lambda P, samples: _lengths(P, samples)[:-1].sum()},
             parts=("length",),
+            source="study: loop, fence posts",
+            line="for each point but the last:",
         ),
         Mistake(
             "squares added",
             "You add the squares of the chords. What is missing before the sum?",
             {"compute_arc_length": lambda P, samples: (_lengths(P, samples) ** 2).sum()},
             parts=("length",),
+            source="study: computation",
+            line="chord: the way to the next point",
         ),
         Mistake(
             "along the axes",
             "A chord goes straight, not first along x and then along y.",
             {"compute_arc_length": lambda P, samples: np.abs(_chords(P, samples)).sum()},
             parts=("length",),
+            source="study: computation",
+            line="chord: the way to the next point",
         ),
         Mistake(
             "from end to end",
             "This is the straight way from the start to the end, without the curve between.",
             {"compute_arc_length": lambda P, samples: float(np.linalg.norm(P[-1] - P[0]))},
             parts=("length",),
+            source="study: loop",
+            line="for each point but the last:",
         ),
         Mistake(
             "control polygon",
@@ -200,12 +213,15 @@ TASK = Task(
                 ).sum()
             },
             parts=("length",),
+            source="study: variable",
+            line="points: samples of the curve",
         ),
         Mistake(
             "a single chord",
             "This is the last chord alone. Does your loop add, or does it begin anew?",
             {"compute_arc_length": lambda P, samples: _lengths(P, samples)[-1]},
             parts=("length",),
+            source="study: loop",
         ),
         Mistake(
             "equal time steps",
@@ -216,42 +232,59 @@ TASK = Task(
                 )
             },
             parts=(ENDS, SPACING),
+            source="thread: gamedev.stackexchange.com/q/105230",
+            line="places: x and y at each goal, from the table",
         ),
         Mistake(
             "chords not added up",
             "Is each distance walked longer than the one before? It must add the new chord.",
             {"equidistant_points": _not_added},
             parts=(ENDS, SPACING),
+            source="study: loop",
+            line=(
+                "walked: 0 at the first point; at each other point, walked at the "
+                "point before, plus the chord"
+            ),
         ),
         Mistake(
             "goals from 0 to 1",
             "The last goal is 1. Which distance has been walked at the end of the curve?",
             {"equidistant_points": lambda P, count: _from_table(P, count, end=1.0)},
             parts=(ENDS, SPACING),
+            source="study: computation",
+            line="goals: count distances in equal steps, from 0 to the whole length",
         ),
         Mistake(
             "x in both columns",
             "Both columns hold x. Which column of the points belongs to y?",
             {"equidistant_points": _both_x},
             parts=(ENDS, SPACING),
+            source="study: variable",
+            line="places: x and y at each goal, from the table",
         ),
         Mistake(
             "last point missing",
             "The last row is empty: does your loop reach it?",
             {"equidistant_points": _without_last},
             parts=(ENDS, SPACING),
+            source="matlab: never reaches the end point",
+            line="places: x and y at each goal, from the table",
         ),
         Mistake(
             "one step short",
             "The last goal is not the whole length: how many steps lie between the points?",
             {"equidistant_points": _along(lambda count: np.arange(count) / count)},
             parts=(ENDS, SPACING),
+            source="study: loop, fence posts",
+            line="goals: count distances in equal steps, from 0 to the whole length",
         ),
         Mistake(
             "first point missing",
             "The first goal is not 0: the start of the curve is one of the points.",
             {"equidistant_points": _along(lambda count: np.arange(1, count + 1) / count)},
             parts=(ENDS, SPACING),
+            source="study: loop, fence posts",
+            line="goals: count distances in equal steps, from 0 to the whole length",
         ),
         Mistake(
             "walked without the 0",
@@ -259,6 +292,11 @@ TASK = Task(
             {"equidistant_points": _without_zero},
             _start_is_off,
             (ENDS,),
+            source="study: loop, fence posts",
+            line=(
+                "walked: 0 at the first point; at each other point, walked at the "
+                "point before, plus the chord"
+            ),
         ),
         Mistake(
             "nearest sample",
@@ -266,6 +304,7 @@ TASK = Task(
             {"equidistant_points": _sample_behind},
             _by_a_sample,
             (SPACING,),
+            source="matlab: always snaps to a sample",
         ),
     ),
     canim_functions=(

@@ -123,6 +123,10 @@ TASK = Task(
             unwritten=_not_begun,
         ),
     ),
+    lines={
+        "deltas": "deltas: each shape minus the neutral face",
+        "weighted sum": "weighted sum: for each shape, add its weight times its delta",
+    },
     mistakes=(
         Mistake(
             "difference the wrong way round",
@@ -131,6 +135,8 @@ TASK = Task(
                 lambda neutral, shapes, weights: neutral - mixed(shapes - neutral, weights),
                 deltas=_turned,
             ),
+            source="study: computation",
+            line="deltas: each shape minus the neutral face",
         ),
         Mistake(
             "neutral not subtracted",
@@ -139,6 +145,8 @@ TASK = Task(
                 lambda neutral, shapes, weights: neutral + mixed(shapes, weights),
                 deltas=lambda neutral, shapes: shapes.copy(),
             ),
+            source="neighbour: Task 3.4",
+            line="deltas: each shape minus the neutral face",
         ),
         Mistake(
             "neutral added",
@@ -147,6 +155,8 @@ TASK = Task(
                 lambda neutral, shapes, weights: neutral + mixed(shapes + neutral, weights),
                 deltas=lambda neutral, shapes: shapes + neutral,
             ),
+            source="study: computation",
+            line="deltas: each shape minus the neutral face",
         ),
         Mistake(
             "first shape subtracted",
@@ -155,11 +165,15 @@ TASK = Task(
                 lambda neutral, shapes, weights: neutral + mixed(shapes - shapes[0], weights),
                 deltas=lambda neutral, shapes: shapes - shapes[0],
             ),
+            source="neighbour: in Task 3.4 shape 0 is the neutral face",
+            line="deltas: each shape minus the neutral face",
         ),
         Mistake(
             "neutral left out",
             "These are only the deltas. To what are they added?",
             _sum(lambda neutral, shapes, weights: mixed(shapes - neutral, weights)),
+            source="study: computation",
+            line="start: the neutral face",
         ),
         Mistake(
             "neutral added for each shape",
@@ -169,6 +183,7 @@ TASK = Task(
                     len(shapes) * neutral + mixed(shapes - neutral, weights)
                 )
             ),
+            source="study: loop",
         ),
         Mistake(
             "neutral added again for each shape",
@@ -178,6 +193,7 @@ TASK = Task(
                     len(shapes) * neutral + blended(neutral, shapes, weights)
                 )
             ),
+            source="trial",
         ),
         Mistake(
             "neutral added twice",
@@ -185,16 +201,20 @@ TASK = Task(
             _sum(
                 lambda neutral, shapes, weights: 2 * neutral + mixed(shapes - neutral, weights),
             ),
+            source="study: loop",
+            line="start: the neutral face",
         ),
         Mistake(
             "global formula",
             "This is the sum of Task 3.4, without any neutral face.",
             _sum(lambda neutral, shapes, weights: mixed(shapes, weights)),
+            source="neighbour: Task 3.4",
         ),
         Mistake(
             "first weight taken for the neutral face",
             "The first expression is left out. The neutral face is not in shapes, nor in weights.",
             _only(slice(1, None)),
+            source="paper: Eq. 15 begins with k = 0",
         ),
         Mistake(
             "neutral face with the first weight",
@@ -204,6 +224,7 @@ TASK = Task(
                     weights[0] * neutral + mixed(shapes - neutral, weights)
                 )
             ),
+            source="paper: Eq. 15 begins with k = 0",
         ),
         Mistake(
             "first weight given to the neutral face",
@@ -213,6 +234,7 @@ TASK = Task(
                     weights[0] * neutral + mixed(shapes[1:] - neutral, weights[1:])
                 )
             ),
+            source="trial",
         ),
         Mistake(
             "neutral face with what is left",
@@ -222,16 +244,19 @@ TASK = Task(
                     (1 - weights.sum()) * neutral + mixed(shapes - neutral, weights)
                 )
             ),
+            source="study: concept",
         ),
         Mistake(
             "last shape left out",
             "The last expression is left out. Where does the loop end?",
             _only(slice(-1)),
+            source="study: loop",
         ),
         Mistake(
             "weights not applied",
             "The deltas are added whole. Where does the weight of each come in?",
             _sum(lambda neutral, shapes, weights: neutral + (shapes - neutral).sum(axis=0)),
+            source="study: computation",
         ),
         Mistake(
             "weight on the shape alone",
@@ -241,6 +266,7 @@ TASK = Task(
                     neutral + mixed(shapes, weights) - len(shapes) * neutral
                 )
             ),
+            source="study: computation",
         ),
         Mistake(
             "weights divided by their sum",
@@ -249,6 +275,7 @@ TASK = Task(
             parts=(SUM,),
             # Where the sum is 0, some divide and some do not: compare what differs only.
             applies=lambda got, _, *args: np.allclose(got, _normalised(*args), equal_nan=True),
+            source="study: concept",
         ),
         Mistake(
             "average of the deltas",
@@ -258,21 +285,27 @@ TASK = Task(
                     neutral + mixed(shapes - neutral, weights) / len(shapes)
                 )
             ),
+            source="study: concept",
         ),
         Mistake(
             "neutral face changed in place",
             "The neutral face changes while it is still needed. Work on a copy.",
             _sum(_in_place),
+            source="thread: strange behaviour with numpy arrays, numpy-discussion, September 2013",
+            line="start: the neutral face",
         ),
         Mistake(
             "only the last shape",
             "Only the last delta is left: each one replaces the one before. Add to it.",
             _only(slice(-1, None)),
+            source="study: loop",
         ),
         Mistake(
             "only the first shape",
             "Only the first delta is there. Is the return inside the loop?",
             _only(slice(1)),
+            source="study: function",
+            line="return the vertices",
         ),
     ),
     canim_functions=(character.delta_blendshape, character.global_blendshape),

@@ -43,21 +43,28 @@ TASK = Task(
         Part("speed up", lambda program, t: program.ease_in_out(t), FIRST, at("t")),
         Part("slow down", lambda program, t: program.ease_in_out(t), SECOND, at("t")),
     ),
+    lines={
+        "speed up": "speed up: in the first half, 2 t^2 is done",
+        "slow down": "slow down: in the second half, all but what is left",
+    },
     mistakes=(
         Mistake(
             "goes on speeding up",
             "The movement goes on speeding up, past the end. Where does it brake?",
             _second_half(lambda t: 2 * t**2),
+            source="authors",
         ),
         Mistake(
             "what is left",
             "This is the way that is left. How much of the way is done?",
             _second_half(lambda t: 2 * (1 - t) ** 2),
+            source="authors",
         ),
         Mistake(
             "time not turned round",
             "How much time is left at the time t? That is what has to be squared.",
             _second_half(lambda t: 1 - 2 * t**2),
+            source="authors",
         ),
     ),
 )
