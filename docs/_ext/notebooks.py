@@ -30,7 +30,7 @@ def _arrange(app, doctree):
         ]
         for image in list(cell.findall(nodes.image)):
             if texts:
-                image.replace_self(_picture(Path(app.srcdir), image, texts.pop(0)))
+                image.replace_self(_picture(app, image["uri"], texts.pop(0)))
             else:
                 _warn("a picture without a comment '# Picture: …' above it", cell)
         if "tag_fold" in cell["classes"]:
@@ -49,14 +49,17 @@ def _take_texts(code):
     return texts
 
 
-def _picture(folder, image, text):
-    path = folder / image["uri"]
+def _picture(app, uri, text):
+    path = Path(app.srcdir, uri)
+    smaller = path.with_suffix(".webp")
     with Image.open(path) as figure:
         width, height = (round(pixels / pictures.SHARP) for pixels in figure.size)
-        if figure.mode != "P":  # else it is the file of an earlier build
-            pictures.save(figure.convert("RGB"), path)
-    attributes = {name: image[name] for name in ("uri", "candidates")}
-    return pictures.picture(alt=text, width=width, height=height, **attributes)
+        if not smaller.exists():  # its name is made from what it shows
+            pictures.save(figure.convert("RGB"), smaller)
+    del app.env.images[uri]
+    uri = uri.removesuffix(".png") + ".webp"
+    app.env.images.add_file(app.env.docname, uri)
+    return pictures.picture(alt=text, width=width, height=height, uri=uri, candidates={"*": uri})
 
 
 def _warn(message, node):

@@ -30,7 +30,7 @@ CSS_DPI = 100  # a figure of 6.4 inches is 640 pixels wide on the page
 PAGE_SCALE = 1.15  # a picture as wide as the text is shown a little larger
 SHARP = 2  # pixels of the file per pixel of the page
 THUMB_WIDTH = 480
-WEBP_QUALITY = 90
+WEBP_QUALITY = 85
 # One thread and no dates: the same film has the same bytes.
 FILM = (
     "-threads 1 -fflags +bitexact -flags:v +bitexact -map_metadata -1"
@@ -72,8 +72,7 @@ def scrape(block, block_vars, gallery_conf):
             image = _save_film(films[figure], path.with_suffix(".mp4"))
         else:
             image = _drawn(figure)
-        if _is_photograph(image):
-            path = path.with_suffix(".webp")
+        path = path.with_suffix(".webp")
         save(image, path)
         if path.stem.endswith("_001"):
             _save_thumb(image, path)
@@ -144,11 +143,13 @@ def _error(image, other):
 
 
 def save(image, path):
-    if path.suffix == ".webp":
-        image.save(path, quality=WEBP_QUALITY)
+    """Save a picture as WebP: a photograph nearly as it is, a drawing with exact 256 colours."""
+    if _is_photograph(image):
+        image.save(path, quality=WEBP_QUALITY, method=6)
     else:
         # Refined until few pixels change, so that smooth shades have no bands.
-        _with_palette(image, kmeans=1000).save(path, optimize=True)
+        small = _with_palette(image, kmeans=1000).convert("RGB")
+        small.save(path, lossless=True, method=6)
 
 
 def _with_palette(image, kmeans=0):
