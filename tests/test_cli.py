@@ -225,7 +225,11 @@ def test_a_program_that_dies_is_told(capsys):
     ("name", "content", "words"),
     [
         ("absent.py", None, "absent.py is not there."),
-        ("broken.py", b"x = 1\ny = (1\n", "broken.py, line 2: y = (1\nA bracket is opened"),
+        (
+            "broken.py",
+            b"x = 1\ny = (1\n",
+            "broken.py, line 2:\n  y = (1\n      ^\nA bracket is opened",
+        ),
         ("latin.py", "x = 'é'".encode("latin-1"), "is not a text in UTF-8"),
         ("nul.py", b"x = 1\0", "nul.py"),
         ("text.txt", b"x = 1", "neither a .py nor an .ipynb file"),

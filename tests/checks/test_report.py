@@ -56,6 +56,23 @@ def test_what_stops_a_function_is_told_first_and_blames_no_part(state):
     assert page.text.index("x = <y>") < page.text.index("Part")
 
 
+def test_a_crash_is_marked_by_carets_in_text_and_underlined_in_html():
+    crash = Crash(3, "x = <yy> + 1", "Why.", 4, 8)
+    broken = Result("H0, start value", "crashed", f"f {reports.stops(crash)}")
+    report = Report(TASK, (broken,))
+    assert str(report).splitlines()[2:4] == ["      x = <yy> + 1", "          ^^^^"]
+    page = _Balanced()
+    page.feed(report._repr_html_())
+    assert page.open == []
+    assert "^" not in page.text
+    assert f'<code>x = <mark style="{reports.MARK}">&lt;yy&gt;</mark> + 1</code>' in (
+        report._repr_html_()
+    )
+    missing = Crash(3, "for i in x", "Why.", 10, 11)
+    broken = Result("H0, start value", "crashed", f"f {reports.stops(missing)}")
+    assert ">\N{NO-BREAK SPACE}</mark></code>" in Report(TASK, (broken,))._repr_html_()
+
+
 def test_where_the_program_stopped_is_told_unless_a_function_is_broken():
     crash = Crash(7, "x = y", "The name y is not known here.")
     told = Result("H0, start value", "crashed", "hermite_basis stops in line 3")

@@ -394,3 +394,20 @@ def test_check_names_unknown_tasks_and_functions():
         canim.check("9.9")
     with pytest.raises(TypeError, match=r"Task 1\.1 has nothing called basis; .* hermite_basis"):
         canim.check("1.1", basis=double)
+
+
+def test_a_function_with_other_values_between_its_brackets_is_told_with_its_first_line():
+    def another(t, count):
+        return double(t)
+
+    message = checks.run(task(), {"f": another}).results[0].message
+    assert "def another(t, count):" in message
+    assert "It is called as f(t): keep these values between its brackets." in message
+    assert "(Python says: TypeError: missing a required argument: 'count')" in message
+    without_a_line = checks.run(task(), {"f": type("F", (), {"__call__": lambda self: 1})()})
+    assert "f stops.\nIt is called as f(t)" in without_a_line.results[0].message
+
+
+def test_a_function_without_a_signature_is_called():
+    assert checks.run(task(), {"f": dict.fromkeys}).results[0].state == "unusable"
+    assert states(checks.run(task(), {"f": max})) == ["unusable", "waits"]

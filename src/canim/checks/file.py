@@ -108,7 +108,8 @@ def _parse(code: str, name: str) -> tuple[ast.Module, str]:
         return ast.parse(code, name), name
     except SyntaxError as error:
         crash = explain(error, lambda _: False)
-        raise UnusableFile(f"{name}, line {crash.line}: {crash.code}\n{crash.sentence}") from None
+        where = f"{name}, line {crash.line}:\n{crash.marked}"
+        raise UnusableFile(f"{where}\n{crash.sentence}") from None
     except ValueError as error:
         raise UnusableFile(f"{name} is not a Python program: {error}.") from None
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import inspect
 import io
+import linecache
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
@@ -83,6 +84,8 @@ class Program:
         if not callable(call):
             return Stopped(function.name, f"{function.name} must be a function.")
         own = [a.copy() if isinstance(a, np.ndarray) else a for a in args]
+        if problem := _other_values(call, function, own):
+            return Stopped(function.name, problem)
         try:
             with _quiet(), self._watch(function.name):
                 result = call(*own)
@@ -114,6 +117,21 @@ class Program:
     def _see(self, name: str, frame: FrameType, event: str, arg: Any) -> None:
         if event == "call" and frame.f_code in self._canim_codes:
             self.uses_canim[name] = None
+
+
+def _other_values(call: Callable[..., Any], function: Function, args: list[Any]) -> Crash | None:
+    """Return a crash at the first line of `call` if that takes other values than `args`."""
+    try:
+        inspect.signature(call).bind(*args)
+    except ValueError:
+        return None  # written in another language, it has no signature
+    except TypeError as error:
+        code: Any = getattr(inspect.unwrap(call), "__code__", None)
+        number = code.co_firstlineno if code else 0
+        line = linecache.getline(code.co_filename, number).strip() if code else ""
+        words = f"It is called as {function.signature}: keep these values between its brackets."
+        return Crash(number, line, f"{words}\n(Python says: TypeError: {error})")
+    return None
 
 
 def _same(a: Any, b: Any) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
 import textwrap
 from dataclasses import dataclass
@@ -22,6 +23,8 @@ STATES = {
     "waits": ("–", "not checked yet"),
 }
 BROKEN = ("crashed", "unusable")
+CARETS = re.compile(r"  +(\^+)")
+MARK = "background:none;color:inherit;border-bottom:3px solid"
 PLAIN_MARKS = {"✓": "+", "○": "o", "✗": "x", "–": "-"}
 
 
@@ -172,8 +175,21 @@ class Report:
 
 
 def _lines(text: str) -> str:
-    """Return `text` as HTML that keeps its lines."""
-    return escape(text).replace("\n", "<br>")
+    """Return `text` as HTML that keeps its lines; what carets mark in code is underlined."""
+    lines = text.split("\n")
+    shown = []
+    for line, below in zip(lines, [*lines[1:], ""], strict=True):
+        if CARETS.fullmatch(line):
+            continue
+        if not line.startswith("  "):
+            shown.append(escape(line))
+            continue
+        marked = CARETS.fullmatch(below)
+        start, end = marked.span(1) if marked else (2, 2)
+        code = line.ljust(end, "\N{NO-BREAK SPACE}")
+        mark = f'<mark style="{MARK}">{escape(code[start:end])}</mark>' if marked else ""
+        shown.append(f"<code>{escape(code[2:start])}{mark}{escape(code[end:])}</code>")
+    return "<br>".join(shown)
 
 
 def _wrapped(text: str, head: str) -> list[str]:
@@ -195,7 +211,7 @@ def stops(crash: Crash) -> str:
     """Return where and why the student's line failed, as the end of a sentence."""
     if not crash.line:
         return f"stops.\n{crash.sentence}"
-    return f"stops in line {crash.line}:\n  {crash.code}\n{crash.sentence}"
+    return f"stops in line {crash.line}:\n{crash.marked}\n{crash.sentence}"
 
 
 def show(report: Report) -> None:
