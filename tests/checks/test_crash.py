@@ -68,7 +68,7 @@ PROGRAMS = {
     "range(4 / 2)": "A whole number is needed here",
     "[1, 2] * 0.5": "A whole number is needed here",
     "import numpy as np\nx = np.arange(3)\nx += 0.5": "This array holds whole numbers only.",
-    "def f(a):\n    pass\nf(1, 2)": "Between the brackets stand 2 values, not 1.",
+    "def f(a):\n    pass\nf(1, 2)": "Between the brackets are 2 values, not 1.",
     "def f(a):\n    pass\nf(b=2)": "too few, too many or wrong arguments",
     "import numpy as np\nnp.sinn(1)": "This value has nothing called sinn. Do you mean sin?",
     "from math import sinn": "There is nothing called sinn to import there.",

@@ -154,7 +154,7 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (TypeError, "function.*subscriptable", "A function is called with round brackets."),
     (TypeError, r"'(int|\S*float\d*)'.*not call", "Is a star missing before this bracket?"),
     (TypeError, "not callable", "Round brackets call a function; an entry takes square ones."),
-    (TypeError, r"s (?P<n>.+) pos.*t (?P<m>\d+)", "Between the brackets stand {m} values, not {n}."),
+    (TypeError, r"s (?P<n>.+) pos.*t (?P<m>\d+)", "Between the brackets are {m} values, not {n}."),
     (TypeError, r"missing .*argument", "The function gets too few values between its brackets."),
     (TypeError, "argument", "The function is called with too few, too many or wrong arguments."),
     (TypeError, "", "A value here has the wrong type for what is done with it."),
