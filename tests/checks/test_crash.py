@@ -38,6 +38,7 @@ PROGRAMS = {
     "'a' + 1": "A value here has the wrong type",
     "[].push(1)": "This value has nothing called push.",
     "import not_there": "The module not_there is not installed. Look at its spelling, too.",
+    "import numpy as np\nnp.ones((10**6, 10**6, 100))": "An array here is larger than the memory.",
     "open('not there')": "A file that this line opens is not there.",
     "import math\nmath.sqrt(-1)": "This line stopped the program.",
     "raise KeyError": "This line stopped the program.",

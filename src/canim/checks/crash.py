@@ -163,6 +163,7 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (AttributeError, "", "This value does not have what is asked of it."),
     (ModuleNotFoundError, "", "The module {name} is not installed. Look at its spelling, too."),
     (ImportError, "name '(?P<name>[^']+)' from", "There is nothing called {name} to import there."),
+    (MemoryError, "", "An array here is larger than the memory."),
     (FileNotFoundError, "", "A file that this line opens is not there."),
     (BaseException, "", "This line stopped the program."),
 ]  # fmt: skip

@@ -292,7 +292,7 @@ class _Surface:
         ab, bc, ca = count + middles.reshape(3, -1)
         fours = [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
         self.faces = np.concatenate([np.stack(corners, axis=1) for corners in fours])
-        self._neighbours = np.bincount(self._ends.ravel(), minlength=count)
+        self._neighbours = np.bincount(self._ends.ravel().astype(np.intp), minlength=count)
         colors = np.full((count, 3), _SKIN) if face.colors is None else np.asarray(face.colors)
         self._colors = self._with_middles(colors)
 
@@ -321,7 +321,8 @@ class _Surface:
 def _sums(numbers: Any, values: Floats, points: Floats) -> Floats:
     """Return for each of the points the sum of the values that have its number."""
     columns = values.reshape(-1, values.shape[-1]).T
-    sums = [np.bincount(numbers.ravel(), column, len(points)) for column in columns]
+    places = numbers.ravel().astype(np.intp)  # in the browser's Python, with 32 bits, it must be
+    sums = [np.bincount(places, column, len(points)) for column in columns]
     return np.stack(sums, axis=1)
 
 
