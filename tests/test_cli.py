@@ -6,6 +6,7 @@ import subprocess
 import sys
 
 import pytest
+from PIL import Image
 
 from canim import checks
 from canim.checks import file as files
@@ -116,6 +117,34 @@ def test_check_hint_shows_the_hint_and_how_to_get_it(capsys):
     assert "There is a hint. Type: canim check --hint task_1_1.py" in capsys.readouterr().out
     assert main(["check", "--hint", "task_1_1.py"]) == 1
     assert "Hint: Some texts misprint" in capsys.readouterr().out
+
+
+WRONG = """import numpy as np
+def hermite_basis(t):
+    return np.array([2 * t**3 - 3 * t**2 + 1, -3 * t**3 + 3 * t**2, t, t**3 - t**2])
+"""
+
+
+def test_expected_and_got_are_drawn_into_a_file(folder, capsys):
+    assert main(["check", "--task", "1.1", "--figure", "seen.png", write("my.py", WRONG)]) == 1
+    assert "Expected and yours are drawn in seen.png." in capsys.readouterr().out
+    with Image.open(folder / "seen.png") as image:
+        assert image.height > image.width  # two parts, one below the other
+
+
+def test_where_there_is_nothing_to_draw_it_says_so(folder, capsys):
+    assert main(["check", "--figure", "seen.png", write("my.py", DONE)]) == 0
+    assert "There is no picture: no part that differs" in capsys.readouterr().out
+    assert not (folder / "seen.png").exists()
+
+
+def test_a_picture_that_cannot_be_written_is_refused(capsys):
+    name = write("my.py", WRONG)
+    assert main(["check", "--task", "1.1", "--figure", "absent/seen.png", name]) == 2
+    assert "seen.png cannot be written: No such file" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main(["check", "--figure", "seen.jpg", name])
+    assert "the name must end in .png, but is 'seen.jpg'" in capsys.readouterr().err
 
 
 def test_the_way_to_the_hint_names_task_and_file_as_they_were_given(capsys):

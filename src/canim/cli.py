@@ -32,12 +32,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     check.add_argument(
         "--time", type=seconds, default=60, metavar="SECONDS", help="limit (default: %(default)s)"
     )
+    check.add_argument(
+        "--figure", type=png_file, metavar="FILE.png", help="draw expected and got into this file"
+    )
     asked = parser.parse_args(arguments)
     if asked.command == "tasks":
         return _tasks()
     if asked.command == "start":
         return _start(asked.task)
-    return _check(asked.file, asked.task, asked.hint, asked.time)
+    return _check(asked.file, asked.task, asked.hint, asked.time, asked.figure)
 
 
 def _tasks() -> int:
@@ -68,15 +71,23 @@ def _start(number: str) -> int:
     return 0
 
 
-def _check(path: Path, task: str | None, hint: int, limit: float) -> int:
+def _check(path: Path, task: str | None, hint: int, limit: float, figure: Path | None) -> int:
     from canim.checks.file import UnusableFile, check_file
 
     try:
-        report = check_file(path, task=task, hint=hint, limit=limit)
+        report = check_file(path, task=task, hint=hint, limit=limit, figure=figure)
     except UnusableFile as problem:
         return _refuse(str(problem))
     checks.show(report)
     return 0 if report.done else 1
+
+
+def png_file(text: str) -> Path:
+    """Return the path of a picture: its name ends in .png."""
+    path = Path(text)
+    if path.suffix.lower() != ".png":
+        raise argparse.ArgumentTypeError(f"the name must end in .png, but is {text!r}")
+    return path
 
 
 def seconds(text: str) -> float:

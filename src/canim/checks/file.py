@@ -7,6 +7,7 @@ import json
 import linecache
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,6 +21,7 @@ import matplotlib
 
 from canim import checks
 from canim.checks.crash import Crash, explain
+from canim.checks.picture import png
 from canim.checks.report import Report, Result
 from canim.checks.task import Task
 
@@ -28,7 +30,14 @@ class UnusableFile(Exception):
     """The file cannot be checked; the message says why."""
 
 
-def check_file(path: Path, *, task: str | None = None, hint: int = 0, limit: float = 60) -> Report:
+def check_file(
+    path: Path,
+    *,
+    task: str | None = None,
+    hint: int = 0,
+    limit: float = 60,
+    figure: Path | None = None,
+) -> Report:
     """Run the file in a fresh process without windows and return the report on it.
 
     Parameters
@@ -43,20 +52,32 @@ def check_file(path: Path, *, task: str | None = None, hint: int = 0, limit: flo
         the pseudocode that each belongs to.
     limit : float
         Time in seconds after which the program is ended.
+    figure : Path, optional
+        Where to write a PNG picture of expected and got for the parts that differ.
 
     Raises
     ------
     UnusableFile
-        If the file is not there, is not a task or cannot be read as Python.
+        If the file is not there, is not a task or cannot be read as Python, or the figure
+        cannot be written.
     """
     found = _task_of(path, [tree for tree, _ in _parsed(path)], task)
     how_to_hint = (f"Type: {_command(path, task, 1)}", f"Type: {_command(path, task, 2)}")
     with tempfile.TemporaryDirectory() as folder:
-        answer = Path(folder) / "report.json"
+        answer, drawn = Path(folder) / "report.json", Path(folder) / "figure.png"
         try:
             subprocess.run(
                 # -P: a json.py of the student's must not take the place of Python's.
-                [sys.executable, "-P", "-m", __name__, path.resolve(), found.id, answer],
+                [
+                    sys.executable,
+                    "-P",
+                    "-m",
+                    __name__,
+                    path.resolve(),
+                    found.id,
+                    answer,
+                    drawn if figure else "",
+                ],
                 cwd=path.resolve().parent,
                 env=os.environ | {"MPLBACKEND": "agg", "PYTHONIOENCODING": "utf-8"},
                 stdin=subprocess.DEVNULL,
@@ -71,6 +92,8 @@ def check_file(path: Path, *, task: str | None = None, hint: int = 0, limit: flo
         if not answer.exists():
             return _empty(found, "ended before its functions could be checked.")
         told = json.loads(answer.read_text(encoding="utf-8"))
+        if figure:
+            told["notes"].append(_moved(drawn, figure))
     return Report(
         found,
         tuple(Result(**result) for result in told["results"]),
@@ -81,6 +104,17 @@ def check_file(path: Path, *, task: str | None = None, hint: int = 0, limit: flo
         stopped=told["stopped"] and Crash(**told["stopped"]),
         answers=told["answers"],
     )
+
+
+def _moved(drawn: Path, figure: Path) -> str:
+    """Put the picture, if there is one, where it is wanted; return a sentence on it."""
+    if not drawn.exists():
+        return "There is no picture: no part that differs is a curve, an image or a chain."
+    try:
+        shutil.copyfile(drawn, figure)
+    except OSError as error:
+        raise UnusableFile(f"{figure} cannot be written: {error.strerror}.") from None
+    return f"Expected and yours are drawn in {figure}."
 
 
 def _command(path: Path, task: str | None, step: int) -> str:
@@ -166,8 +200,11 @@ def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
     raise UnusableFile(f"{path} is not a task of the course: say which one with --task, as in 1.1.")
 
 
-def _run_here(path: Path, task: Task) -> dict[str, Any]:
-    """Run the file in this process and return what the report needs, as JSON can hold it."""
+def _run_here(path: Path, task: Task, figure: str) -> dict[str, Any]:
+    """Run the file in this process and return what the report needs, as JSON can hold it.
+
+    What differs is drawn into the file `figure`, unless that is "".
+    """
     # A window would wait until somebody closes it.
     vars(matplotlib)["use"] = lambda *args, **options: None
     # The file's own call would report twice, and end the program where a part crashes.
@@ -190,6 +227,8 @@ def _run_here(path: Path, task: Task) -> dict[str, Any]:
     except SystemExit:
         pass
     report = checks.run(task, {name: vars(module).get(name) for name in task.names})
+    if figure and report.drawings:
+        Path(figure).write_bytes(png(report.drawings, titles=True))
     answers = vars(module).get("answers")
     return {
         "results": [asdict(result) for result in report.results],
@@ -205,7 +244,7 @@ def _as_text(answers: dict[Any, Any]) -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    asked, number, answer = sys.argv[1:]
-    told = _run_here(Path(asked), checks.find(number))
+    asked, number, answer, drawn = sys.argv[1:]
+    told = _run_here(Path(asked), checks.find(number), drawn)
     Path(answer).write_text(json.dumps(told), encoding="utf-8")
     os._exit(0)  # a thread that the program left behind would go on

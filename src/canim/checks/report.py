@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import importlib
 import re
 import sys
@@ -11,6 +12,7 @@ from html import escape
 from typing import Any
 
 from canim.checks.crash import Crash
+from canim.checks.picture import SIZE, Drawing, png
 from canim.checks.task import Task
 
 WIDTH = 88
@@ -24,6 +26,7 @@ STATES = {
 }
 BROKEN = ("crashed", "unusable")
 CARETS = re.compile(r"  +(\^+)")
+IMAGE_STYLE = "display:block;max-width:100%;height:auto;border-radius:6px;margin:0.5em 0"
 MARK = "background:none;color:inherit;border-bottom:3px solid"
 PLAIN_MARKS = {"✓": "+", "○": "o", "✗": "x", "–": "-"}
 
@@ -53,6 +56,7 @@ class Report:
     `notes` are sentences about the program as a whole; `answers` counts the questions
     answered, where the file was seen; `stopped` says where the file itself crashed, and
     `changing` names the functions that change their arguments: what comes after goes wrong.
+    `drawings` show expected and got of parts that differ; in HTML they are drawn.
     """
 
     task: Task
@@ -62,6 +66,7 @@ class Report:
     how_to_hint: tuple[str, str] = ("", "")
     stopped: Crash | None = None
     changing: tuple[str, ...] = ()
+    drawings: tuple[Drawing, ...] = ()
     answers: dict[str, str] | None = None
 
     @property
@@ -170,7 +175,19 @@ class Report:
         return (
             f'<tr class="canim-{r.state}"><th scope="row" style="{cell}">{escape(r.part)}</th>'
             f'<td style="{cell}"><span aria-hidden="true">{mark}</span> '
-            f"{_lines(words if r.state in BROKEN else r.message or words)}{fold}</td></tr>"
+            f"{_lines(words if r.state in BROKEN else r.message or words)}"
+            f"{self._picture(r.part)}{fold}</td></tr>"
+        )
+
+    def _picture(self, part: str) -> str:
+        drawings = [drawing for drawing in self.drawings if drawing.part == part]
+        if not drawings:
+            return ""
+        data = base64.b64encode(png(drawings)).decode()
+        width, height = (round(100 * inches) for inches in SIZE)
+        return (
+            f'<img src="data:image/png;base64,{data}" alt="{escape(drawings[0].text)}" '
+            f'width="{width}" height="{height}" style="{IMAGE_STYLE}">'
         )
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from canim.checks.crash import Crash
+from canim.checks.picture import Drawing
 from canim.checks.program import Program, Stopped
 from canim.checks.report import Report, Result, stops
 from canim.checks.task import Mistake, Part, Task
@@ -28,7 +29,7 @@ def run(task: Task, names: Mapping[str, Any], *, hint: int = 0) -> Report:
     reference = Program(
         task, given | {f.name: f.reference for f in task.functions if f.reference is not None}
     )
-    results, wrong, told = [], {}, set[str]()
+    results, wrong, drawings, told = [], {}, list[Drawing](), set[str]()
     for part in task.parts:
         try:
             compared = list(_compare(part, student, reference))
@@ -38,6 +39,7 @@ def run(task: Task, names: Mapping[str, Any], *, hint: int = 0) -> Report:
         result = _judge(part, compared)
         if result.state == "differs":
             wrong[part.name] = compared
+            drawings += _drawing(part, compared)
         results.append(result)
     explained = _explain(task, wrong, given)
     results = [
@@ -49,6 +51,7 @@ def run(task: Task, names: Mapping[str, Any], *, hint: int = 0) -> Report:
         tuple(results),
         notes=tuple(_notes(student)),
         changing=tuple(student.changes),
+        drawings=tuple(drawings),
         show_hints=hint,
         how_to_hint=(
             f"In your program, write hint=True into the call:\n"
@@ -57,6 +60,17 @@ def run(task: Task, names: Mapping[str, Any], *, hint: int = 0) -> Report:
             f'canim.check("{task.id}", hint=2, {arguments})',
         ),
     )
+
+
+def _drawing(part: Part, compared: Compared) -> list[Drawing]:
+    """Return what is to be drawn of a part: the case that its sentence is about."""
+    args, _, got, expected = next(c for c in compared if not _equal(c[2], c[3], part.tolerance))
+    if part.picture is None or got.shape != expected.shape:
+        return []
+    # Beside numbers that are much too large, what is expected would not be seen.
+    if np.any(np.abs(got) > 1e4 * max(1.0, float(np.nanmax(np.abs(expected))))):
+        return []
+    return [Drawing(part.name, part.picture, got, expected, args)]
 
 
 def _with_hint(result: Result, mistake: Mistake, task: Task) -> Result:

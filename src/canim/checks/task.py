@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from canim.checks.picture import Picture
+
 Floats = NDArray[np.float64]
 
 BLOCKS = {
@@ -127,7 +129,8 @@ class Part:
     student's functions and data, then the reference's, by attribute. `place(index, *args)`
     says where the entry `index` of the measured array is ("at t = 0.5").
     `expected(program, *args)` replaces the reference's measure where there is no single
-    right answer, or what is right follows from the student's own data.
+    right answer, or what is right follows from the student's own data. `picture` draws what
+    is measured, where it is a curve, an image or a chain.
     """
 
     name: str
@@ -138,6 +141,7 @@ class Part:
     unwritten: Callable[[Floats], bool] = _all_nan
     tolerance: float = 1e-6
     describe: Callable[..., str] | None = None
+    picture: Picture | None = None
 
 
 @dataclass(frozen=True)

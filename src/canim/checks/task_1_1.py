@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.picture import values_over
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task, at
 
 CASES = (
@@ -15,6 +16,8 @@ CASES = (
     Case((np.array([0.0, 0.25, 0.5, 1.0]),)),
     Case((np.array([0.3]),), "one value of t"),
 )
+
+CURVE = values_over("t")
 
 
 def _row(k: int) -> Callable[..., Any]:
@@ -77,10 +80,10 @@ TASK = Task(
         ),
     ),
     parts=(
-        Part("H0, start value", _row(0), CASES, at("t")),
-        Part("H1, end value", _row(1), CASES, at("t")),
-        Part("H2, start slope", _row(2), CASES, at("t")),
-        Part("H3, end slope", _row(3), CASES, at("t")),
+        Part("H0, start value", _row(0), CASES, at("t"), picture=CURVE),
+        Part("H1, end value", _row(1), CASES, at("t"), picture=CURVE),
+        Part("H2, start slope", _row(2), CASES, at("t"), picture=CURVE),
+        Part("H3, end slope", _row(3), CASES, at("t"), picture=CURVE),
     ),
     lines={
         "H0, start value": "H0, start value: 2 t^3 - 3 t^2 + 1",

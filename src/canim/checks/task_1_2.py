@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.picture import values_over
 from canim.checks.program import Stopped
 from canim.checks.run import number
 from canim.checks.task import Array, Case, Data, Floats, Function, Mistake, Part, Task, at
@@ -164,6 +165,7 @@ TASK = Task(
             at("t"),
             expected=_expected_curve,
             unwritten=_any_nan,
+            picture=values_over("t"),
         ),
     ),
     lines={

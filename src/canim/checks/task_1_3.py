@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.picture import values_over
 from canim.checks.program import Stopped
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 
@@ -186,10 +187,24 @@ TASK = Task(
         ),
     ),
     parts=(
-        Part("basis, the four nodes", _basis, (OWN,), _in_row),
-        Part("basis, any number of nodes", _basis, OTHERS, _in_row),
-        Part("L, the four points", _curve, (CURVE,), _at_x, _expected_curve),
-        Part("L, any number of points", _curve, OTHER_CURVES, _at_x, _expected_curve),
+        Part("basis, the four nodes", _basis, (OWN,), _in_row, picture=values_over("x", 1)),
+        Part("basis, any number of nodes", _basis, OTHERS, _in_row, picture=values_over("x", 1)),
+        Part(
+            "L, the four points",
+            _curve,
+            (CURVE,),
+            _at_x,
+            _expected_curve,
+            picture=values_over("x", 2),
+        ),
+        Part(
+            "L, any number of points",
+            _curve,
+            OTHER_CURVES,
+            _at_x,
+            _expected_curve,
+            picture=values_over("x", 2),
+        ),
     ),
     lines={
         "basis, the four nodes": "multiply row j by the factor",

@@ -9,6 +9,7 @@ import numpy as np
 
 from canim import interpolation
 from canim.checks.crash import Crash
+from canim.checks.picture import GRAPH
 from canim.checks.program import Stopped
 from canim.checks.run import number
 from canim.checks.task import Array, Case, Data, Floats, Function, Mistake, Part, Task, Unusable
@@ -253,6 +254,7 @@ TASK = Task(
             ),
             unwritten=_no_height_yet,
             describe=_at_x,
+            picture=GRAPH,
         ),
     ),
     lines={

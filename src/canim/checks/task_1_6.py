@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.picture import values_over
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 
 # Every t holds 0.5, where all powers of degree n are alike: there a right row is the number
@@ -171,7 +172,7 @@ TASK = Task(
         ),
     ),
     parts=(
-        Part(FIRST, _first, CASES, _time),
+        Part(FIRST, _first, CASES, _time, picture=values_over("t", 1)),
         Part(
             POWERS,
             _others,
@@ -179,6 +180,7 @@ TASK = Task(
             _row_and_time,
             expected=_only_powers_wrong,
             unwritten=_no_curves,
+            picture=values_over("t", 1),
         ),
         Part(WAYS, _ways, CASES, _row_of_way, unwritten=_no_curves),
     ),

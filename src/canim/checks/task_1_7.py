@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.picture import PATH
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 
 T = np.linspace(0, 1, 11)
@@ -105,7 +106,9 @@ TASK = Task(
     ),
     parts=(
         *(_pull(k) for k in range(4)),
-        Part("curve", _curve, (Case((PAPER, T)), Case((LOOP, NEVER_HALF))), _coordinate),
+        Part(
+            "curve", _curve, (Case((PAPER, T)), Case((LOOP, NEVER_HALF))), _coordinate, picture=PATH
+        ),
     ),
     lines={
         "pull of P0": "pull of P0: (1 - s)^3 times P0",

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.picture import PATH
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task, Unusable
 
 POINTS = np.array([[5.0, -10.0], [13.0, -2.0], [5.0, 20.0], [25.0, 20.0]])
@@ -226,6 +227,7 @@ TASK = Task(
                 (Case((joint,)),),
                 _point_of_joint,
                 expected=_smooth_joint,
+                picture=PATH,
             )
             for joint, name in enumerate(JOINTS)
         ),
@@ -237,6 +239,7 @@ TASK = Task(
                 Case((POINTS, 3.0, 0.0, STAY), "scale 3"),
             ),
             _coordinate,
+            picture=PATH,
         ),
         Part(
             "move",
@@ -256,6 +259,7 @@ TASK = Task(
                 Case((POINTS, 0.5, -2.0, -AWAY), "scale 0.5, angle -2, move (3, -4)"),
             ),
             _coordinate,
+            picture=PATH,
         ),
     ),
     lines={

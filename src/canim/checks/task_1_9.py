@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from canim import interpolation
+from canim.checks.picture import PATH
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task, Unusable
 
 PAPER = np.array([[5.0, -10.0], [9.0, 38.0], [38.0, -5.0], [45.0, 15.0]])
@@ -163,8 +164,16 @@ TASK = Task(
     parts=(
         Part("length", _length, LENGTHS, tolerance=0.01),
         # 3 in 10,000 of the size are a few in 1000 of the distance from point to point.
-        Part(ENDS, _ends, POINTS, _end, unwritten=_column_missing, tolerance=3e-4),
-        Part(SPACING, _between, POINTS, _inner, unwritten=_column_missing, tolerance=3e-4),
+        Part(ENDS, _ends, POINTS, _end, unwritten=_column_missing, tolerance=3e-4, picture=PATH),
+        Part(
+            SPACING,
+            _between,
+            POINTS,
+            _inner,
+            unwritten=_column_missing,
+            tolerance=3e-4,
+            picture=PATH,
+        ),
     ),
     lines={
         "length": "add its length to the length",

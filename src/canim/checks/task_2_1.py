@@ -14,6 +14,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from canim import warping
+from canim.checks.picture import IMAGES
 from canim.checks.run import number
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 
@@ -276,13 +277,21 @@ TASK = Task(
             ),
             _entry,
         ),
-        Part(INSIDE, _filled, (Case((SQUARE, *shifted())),), unwritten=nothing, describe=describe),
+        Part(
+            INSIDE,
+            _filled,
+            (Case((SQUARE, *shifted())),),
+            unwritten=nothing,
+            describe=describe,
+            picture=IMAGES,
+        ),
         Part(
             PLACE,
             _filled,
             (Case((SQUARE, *toy(20, 20))), Case((SQUARE, *_outwards()))),
             unwritten=nothing,
             describe=describe,
+            picture=IMAGES,
         ),
         Part(
             COLOUR,
@@ -290,9 +299,15 @@ TASK = Task(
             (Case((SQUARE, *toy(20, 20))), Case((SQUARE, *shifted()))),
             unwritten=nothing,
             describe=describe,
+            picture=IMAGES,
         ),
         Part(
-            WIDE_IMAGE, _warped, (Case((WIDE, *toy(24, 15))),), unwritten=nothing, describe=describe
+            WIDE_IMAGE,
+            _warped,
+            (Case((WIDE, *toy(24, 15))),),
+            unwritten=nothing,
+            describe=describe,
+            picture=IMAGES,
         ),
     ),
     lines={

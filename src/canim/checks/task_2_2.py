@@ -13,6 +13,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from canim import warping
+from canim.checks.picture import IMAGES
 from canim.checks.run import number
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 from canim.checks.task_2_1 import (
@@ -239,9 +240,21 @@ TASK = Task(
             _channel,
             unwritten=nothing,
         ),
-        Part(INSIDE, _filled, (Case((SQUARE, *_still())),), unwritten=nothing, describe=describe),
         Part(
-            PLACE, _warped, (Case((SQUARE, *toy(20, 20))),), unwritten=nothing, describe=_describe
+            INSIDE,
+            _filled,
+            (Case((SQUARE, *_still())),),
+            unwritten=nothing,
+            describe=describe,
+            picture=IMAGES,
+        ),
+        Part(
+            PLACE,
+            _warped,
+            (Case((SQUARE, *toy(20, 20))),),
+            unwritten=nothing,
+            describe=_describe,
+            picture=IMAGES,
         ),
         Part(
             COLOUR,
@@ -249,6 +262,7 @@ TASK = Task(
             (Case((SPOTS, *toy(20, 20))),),
             unwritten=nothing,
             describe=_describe_colour,
+            picture=IMAGES,
         ),
         Part(
             WIDE_IMAGE,
@@ -256,6 +270,7 @@ TASK = Task(
             (Case((WIDE, *toy(24, 15))),),
             unwritten=nothing,
             describe=_describe,
+            picture=IMAGES,
         ),
     ),
     lines={

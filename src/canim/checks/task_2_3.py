@@ -13,6 +13,7 @@ import numpy as np
 from scipy.spatial import Delaunay
 
 from canim import warping
+from canim.checks.picture import IMAGES
 from canim.checks.run import number
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 from canim.checks.task_2_1 import describe, nothing, numbered
@@ -159,6 +160,7 @@ TASK = Task(
             tuple(Case((IMAGE, BLACK, *MESH, t)) for t in (0.25, 0.7, 0.0)),
             unwritten=nothing,
             describe=_describe,
+            picture=IMAGES,
         ),
         Part(
             WARP_B,
@@ -166,6 +168,7 @@ TASK = Task(
             tuple(Case((BLACK, TURNED, *MESH, t)) for t in (0.25, 0.7, 1.0)),
             unwritten=nothing,
             describe=_describe,
+            picture=IMAGES,
         ),
         Part(
             BLEND,
@@ -173,6 +176,7 @@ TASK = Task(
             (Case((DIM, BRIGHT, *MESH, 0.3)), Case((BRIGHT, DIM, *MESH, 0.3))),
             unwritten=nothing,
             describe=_describe,
+            picture=IMAGES,
         ),
     ),
     lines={

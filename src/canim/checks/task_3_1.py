@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from canim import character
+from canim.checks.picture import CHAIN
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 
 
@@ -170,6 +171,7 @@ TASK = Task(
             (_pose(-70, 0, 35), _pose(160, -40, 95), _pose(0, 0, 0)),
             _coordinate,
             unwritten=_only_the_first,
+            picture=CHAIN,
         ),
         Part(
             CHAINS,
@@ -177,6 +179,7 @@ TASK = Task(
             (_other(1, 4), _other(2, 7), _other(3, 2)),
             _coordinate,
             unwritten=_only_the_first,
+            picture=CHAIN,
         ),
     ),
     lines={
