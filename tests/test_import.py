@@ -44,6 +44,14 @@ def test_interpolation_needs_numpy_alone():
     assert loaded & HEAVY == {"typing", "numpy"}
 
 
+def test_check_of_a_curve_needs_no_scipy():
+    loaded = loaded_by(
+        "import canim\ncanim.check('1.1', hermite_basis=canim.interpolation.hermite_basis)"
+    )
+    assert "canim.checks.task_1_1" in loaded
+    assert not loaded & {"scipy", "matplotlib", "canim.checks.task_2_1"}
+
+
 @pytest.mark.parametrize("name", [name for name in canim.__all__ if name != "check"])
 def test_parts_are_loaded_on_first_use(name):
     assert getattr(canim, name) is importlib.import_module(f"canim.{name}")

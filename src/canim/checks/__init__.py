@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from canim.checks import report as _report
@@ -18,21 +19,29 @@ from canim.checks.task import BLOCKS, Task
 __all__ = ["BLOCKS", "TASKS", "Report", "Task", "check", "find", "run", "show"]
 
 
-def _number(task: Task) -> list[int]:
-    return [int(part) for part in task.id.split(".")]
+class _Tasks(Mapping[str, Task]):
+    """The tasks by number; one is loaded when it is asked for, since some need scipy."""
+
+    def __init__(self) -> None:
+        found = [module.name for module in pkgutil.iter_modules(__path__)]
+        numbers = (name.split("_")[1:] for name in found if name.startswith("task_"))
+        self._ids = [".".join(number) for number in sorted(numbers, key=lambda n: [*map(int, n)])]
+
+    def __getitem__(self, task: str) -> Task:
+        if task not in self._ids:
+            raise KeyError(task)
+        module = importlib.import_module(f"{__name__}.task_{task.replace('.', '_')}")
+        found: Task = module.TASK
+        return found
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._ids)
+
+    def __len__(self) -> int:
+        return len(self._ids)
 
 
-TASKS: dict[str, Task] = {
-    task.id: task
-    for task in sorted(
-        (
-            importlib.import_module(f"{__name__}.{module.name}").TASK
-            for module in pkgutil.iter_modules(__path__)
-            if module.name.startswith("task_")
-        ),
-        key=_number,
-    )
-}
+TASKS = _Tasks()
 
 show = _report.show
 
