@@ -39,6 +39,7 @@ PROGRAMS = {
     "[].push(1)": "This value has nothing called push.",
     "import not_there": "The module not_there is not installed. Look at its spelling, too.",
     "import numpy as np\nnp.ones((10**6, 10**6, 100))": "An array here is larger than the memory.",
+    "import numpy as np\nnp.ones((2**40, 2**40))": "An array here is larger than the memory.",
     "open('not there')": "A file that this line opens is not there.",
     "import math\nmath.sqrt(-1)": "This line stopped the program.",
     "raise KeyError": "This line stopped the program.",

@@ -136,6 +136,7 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (IndexError, "", "An index is too large: counting starts at 0 and ends one before the length."),
     (ZeroDivisionError, "", "Something is divided by zero."),
     (RecursionError, "", "A function calls itself without end."),
+    (ValueError, "too big|Maximum allowed", "An array here is larger than the memory."),
     (ValueError, "must be square", "Only a square matrix has an inverse."),
     (ValueError, r"into shape \(0", "There is nothing to write into: these places are outside."),
     (ValueError, "float NaN", "A number here is nan: it is not written yet, or was divided by 0."),
