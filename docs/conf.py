@@ -26,6 +26,7 @@ extensions = [
     "sphinxcontrib.bibtex",
     "sphinx_copybutton",
     # ours
+    "run_here",
     "formulas",
     "pictures",
     "notebooks",

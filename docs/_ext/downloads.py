@@ -20,7 +20,7 @@ RELEASE = starter.release(ROOT)
 OLDEST_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 
 
-def _wheel():
+def served_wheel():
     """Return the wheel that the site serves: the one the docs session has built."""
     if given := os.environ.get("CANIM_WHEEL"):
         return Path(given)
@@ -31,7 +31,7 @@ def _wheel():
 
 
 def _say_how_to_install(app, config):
-    wheel = escape(_wheel().name)
+    wheel = escape(served_wheel().name)
     if RELEASE.site:
         what = f"{RELEASE.site.rstrip('/')}/wheels/{wheel}"
         first = "Once, before the first task: open a terminal and type"
@@ -58,7 +58,7 @@ class Start(SphinxDirective):
         buttons = {
             f"Start with Task {first.id}": f"{first.page}.html",
             "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
-            "The package canim <span>(.whl)</span>": f"wheels/{_wheel().name}",
+            "The package canim <span>(.whl)</span>": f"wheels/{served_wheel().name}",
         }
         links = "".join(
             f'<a href="{up}{escape(address)}" class="button">{text}</a>'
@@ -73,7 +73,7 @@ class Package(SphinxDirective):
     def run(self):
         up = "../" * self.env.docname.count("/")
         button = (
-            f'<a href="{up}wheels/{escape(_wheel().name)}" class="button" download>'
+            f'<a href="{up}wheels/{escape(served_wheel().name)}" class="button" download>'
             "The package canim <span>(.whl)</span></a>"
         )
         return [nodes.raw("", f'<p class="buttons">{button}</p>', format="html")]
@@ -86,7 +86,7 @@ class Install(SphinxDirective):
     has_content = True
 
     def run(self):
-        lines = [*self.content, f"{self.arguments[0]} -m pip install {_wheel().name}"]
+        lines = [*self.content, f"{self.arguments[0]} -m pip install {served_wheel().name}"]
         text = "\n".join(lines)
         return [nodes.literal_block(text, text, language="text", classes=["wraps"])]
 
@@ -106,7 +106,7 @@ def _hand_out(app, exception):
             member.compress_type = zipfile.ZIP_DEFLATED
             member.external_attr = 0o644 << 16
             together.writestr(member, path.read_bytes())
-    shutil.copyfile(_wheel(), _emptied(app.outdir / "wheels") / _wheel().name)
+    shutil.copyfile(served_wheel(), _emptied(app.outdir / "wheels") / served_wheel().name)
 
 
 def _emptied(folder):

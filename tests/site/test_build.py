@@ -21,6 +21,7 @@ def sphinx(source, target, *options):
         "PYTHONPATH": os.pathsep.join(filter(None, paths)),
         "PYTHONHASHSEED": "7",
     }
+    environment.setdefault("CANIM_PYODIDE", str(ROOT / "docs/_build/pyodide"))
     return subprocess.run(
         command, capture_output=True, text=True, encoding="utf-8", env=environment, check=False
     )
