@@ -65,7 +65,7 @@ def test_start_never_overwrites(folder, capsys):
 
 def test_start_names_the_tasks_there_are(capsys):
     assert main(["start", "7.7"]) == 2
-    assert "There is no task '7.7'; there are 1.1" in capsys.readouterr().err
+    assert "There is no task '7.7'; there are 0.0, 1.1" in capsys.readouterr().err
 
 
 def test_start_says_why_it_cannot_write(monkeypatch, capsys):

@@ -56,7 +56,7 @@ class Start(SphinxDirective):
         up = "../" * self.env.docname.count("/")
         first = next(iter(TASKS.values()))
         buttons = {
-            f"Start with Task {first.id}": f"{first.page}.html",
+            f"Start with Task {first.id}, the warm-up": f"{first.page}.html",
             "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
             "The package canim <span>(.whl)</span>": f"wheels/{served_wheel().name}",
         }

@@ -147,7 +147,7 @@ def _row(term, *content):
 def builds_on(task):
     """Return what a task builds on, as links."""
     if not task.builds_on:
-        return [nodes.Text("nothing: start here" if task.id == "1.1" else "no other task")]
+        return [nodes.Text("nothing: start here" if task.id == "0.0" else "no other task")]
     links = [page_link(TASKS[id_], f"Task {id_}") for id_ in task.builds_on]
     return [n for link in links for n in (nodes.Text(", "), link)][1:]
 

@@ -14,6 +14,7 @@ from canim.checks.picture import Picture
 Floats = NDArray[np.float64]
 
 BLOCKS = {
+    "warm_up": "Warm-up",
     "interpolation": "Interpolation",
     "warping": "Image warping",
     "character": "Character animation",
