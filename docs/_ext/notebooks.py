@@ -33,6 +33,8 @@ def _arrange(app, doctree):
                 image.replace_self(_picture(app, image["uri"], texts.pop(0)))
             else:
                 _warn("a picture without a comment '# Picture: …' above it", cell)
+        for trace in list(cell.findall(_is_empty_trace)):
+            trace.parent.remove(trace)
         if "tag_fold" in cell["classes"]:
             cell[0].replace_self(fold("", cell[0].deepcopy(), summary="How this picture is drawn"))
         for text in texts:
@@ -41,6 +43,15 @@ def _arrange(app, doctree):
 
 def _is_cell(node):
     return isinstance(node, nodes.container) and "cell" in node["classes"]
+
+
+def _is_empty_trace(node):
+    """Tell what is left of a cell that a check has ended: its report says why."""
+    return (
+        isinstance(node, nodes.literal_block)
+        and "traceback" in node["classes"]
+        and not node.astext().strip()
+    )
 
 
 def _take_texts(code):

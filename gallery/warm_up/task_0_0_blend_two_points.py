@@ -23,8 +23,8 @@ t = np.linspace(0, 1, 11)  # 11 moments from the start to the end
 # %%
 # Expected result
 # ---------------
-# This is what you will make: the places of a point at 11 moments. It begins at a and ends
-# at b.
+# This is what you will make: the places of a point :math:`p` at 11 moments. It begins at :math:`a` and
+# ends at :math:`b`.
 
 from canim import interpolation
 
@@ -34,7 +34,7 @@ fig, ax = plt.subplots(num="Expected result")
 ax.set(xlim=(0, 8), ylim=(0, 5), xlabel="x", ylabel="y")
 ax.plot(*a, "o", markersize=14, label="a")
 ax.plot(*b, "o", markersize=14, label="b")
-ax.plot(*interpolation.lerp(a, b, t).T, "o", label="yours")
+ax.plot(*interpolation.lerp(a, b, t).T, "o", label="p")
 canim.plotting.label_curves(ax)
 
 # %%
@@ -111,13 +111,13 @@ def blend(a, b, t):
 
 canim.check("0.0", blend=blend)
 
-# Picture: The same axes as above with the points a and b only; yours are named as missing.
+# Picture: The same axes as above with the points a and b only; p is named as missing.
 fig, ax = plt.subplots(num="Yours")
 ax.set(xlim=(0, 8), ylim=(0, 5), xlabel="x", ylabel="y")
 ax.plot(*a, "o", markersize=14, label="a")
 ax.plot(*b, "o", markersize=14, label="b")
 x, y = blend(a, b, t)
-ax.plot(x, y, "o", label="yours")
+ax.plot(x, y, "o", label="p")
 canim.plotting.label_curves(ax)
 
 # %%
