@@ -23,8 +23,8 @@ t = np.linspace(0, 1, 11)  # 11 moments from the start to the end
 # %%
 # Expected result
 # ---------------
-# This is what you will make: the places of a point :math:`p` at 11 moments. It begins at :math:`a` and
-# ends at :math:`b`.
+# This is what you will make: the places of a point :math:`p` at 11 moments. It begins at
+# :math:`a` and ends at :math:`b`.
 
 from canim import interpolation
 

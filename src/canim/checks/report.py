@@ -154,7 +154,8 @@ class Report:
         )
         endings = "".join(f"<p>{_lines(line)}</p>" for line in self._endings)
         return (
-            f'<div class="canim-report">{problems}<table><caption style="text-align:left;white-space:nowrap">'
+            f'<div class="canim-report">{problems}<table>'
+            f'<caption style="text-align:left;white-space:nowrap">'
             f"{escape(self.summary)}</caption>"
             f'<thead><tr><th scope="col" style="text-align:left">Part</th>'
             f'<th scope="col" style="text-align:left">Result</th></tr></thead>'
