@@ -34,6 +34,7 @@ extensions = [
     "search_index",
     "task_page",
     "task_cards",
+    "known_mistakes",
     "words",
     "downloads",
     "page_head",

@@ -27,7 +27,7 @@ SOURCES = {
     "matlab": "An error of the course's first form, in MATLAB.",
     "study": "A kind of error that Alzahrani and Vahid found in 47 studies of beginners.",
     "thread": "A question that somebody asked in public about a program with this error.",
-    "trial": "A program that a reader of the page wrote before knowing the check.",
+    "trial": "A wrong program that a reader of the page wrote when the pages were tried.",
     "neighbour": "What is right in another task, or for a similar formula.",
     "notation": "Other books or libraries write it in this way.",
     "authors": "A slip that nobody was seen to make yet: the authors of the task expect it.",
