@@ -33,6 +33,7 @@ extensions = [
     "freshness",
     "search_index",
     "task_page",
+    "run_page",
     "task_cards",
     "known_mistakes",
     "words",
@@ -51,7 +52,7 @@ html_title = "Computer animation with canim"
 html_favicon = "_static/favicon.svg"
 html_static_path = ["_static"]
 templates_path = ["_templates"]
-html_css_files = ["course.css"]
+html_css_files = ["course.css", "run.css"]
 html_theme_options = {
     "top_of_page_buttons": [],
     "light_css_variables": {

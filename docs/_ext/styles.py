@@ -13,6 +13,7 @@ TOGETHER = {
         "copybutton.css",
         "styles/furo-extensions.css",
         "course.css",
+        "run.css",
     ),
     "site.js": (
         "documentation_options.js",

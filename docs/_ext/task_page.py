@@ -125,7 +125,8 @@ def _card(app, task, docname):
     buttons = nodes.raw(
         "",
         '<p class="buttons">'
-        f'<a href="{starter}" class="button" download>Download starter <span>(.py)</span></a>'
+        + '<a href="#run-here" class="button">Run here</a>' * app.config.run_here
+        + f'<a href="{starter}" class="button" download>Download starter <span>(.py)</span></a>'
         f'<a href="{starter.removesuffix(".py")}.ipynb" class="button" download>Notebook'
         " <span>(.ipynb)</span></a></p>\n",
         format="html",

@@ -14,6 +14,9 @@ import pytest
 ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs/_ext"))
 os.environ["MPLBACKEND"] = "agg"
+AXE_FILE = ROOT / "docs/node_modules/axe-core/axe.min.js"
+CHECK = """() => axe.run(document, {resultTypes: ["violations"]}).then(result =>
+  result.violations.flatMap(v => v.nodes.map(n => `${v.id}: ${n.target.join(" ")}`)))"""
 MOUNT = "/some/folder"  # of the server: a site at its root would hide wrong addresses
 
 
@@ -96,6 +99,18 @@ def visit(chromium, address):
     yield open_page
     for context in contexts:
         context.close()
+
+
+@pytest.fixture(scope="session")
+def violations():
+    """Return what axe finds wrong in an open page."""
+
+    def find(page):
+        if not page.evaluate("() => 'axe' in window"):
+            page.add_script_tag(path=AXE_FILE)
+        return page.evaluate(CHECK)
+
+    return find
 
 
 class Document(HTMLParser):

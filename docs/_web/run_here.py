@@ -1,0 +1,310 @@
+"""Run a student's program in the page, and send what it prints, draws and reports.
+
+The worker loads this module into the Python of the page and calls `begin` once, then `run`
+for every press of Run. A message to the page is a kind, its content, and files as bytes.
+"""
+
+from __future__ import annotations
+
+import builtins
+import io
+import json
+import linecache
+import os
+import sys
+import time
+import warnings
+from pathlib import Path
+from types import ModuleType
+
+import matplotlib as mpl
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.animation import AbstractMovieWriter, Animation
+from PIL import Image, ImageSequence
+
+import canim
+from canim.checks.crash import explain
+from canim.checks.report import stops
+
+MOST = 1_000_000  # characters that a program may print
+AT_ONCE = 200  # prints that are sent one by one; after them, what was printed in 50 ms
+DPI, FILM_DPI = 160, 100
+PAGE_DPI = 100  # a figure of 6.4 inches is 640 pixels wide on the page
+FRAMES = 500  # the most that a film may have
+
+_save_film, _begin_film = Animation.save, Animation.__init__
+_pick_points, _animate_chain = canim.plotting.pick_points, canim.plotting.animate_chain
+
+post = answers = output = None
+films, saved = {}, {}  # by figure: its film, and the file that the program saved it in
+
+
+class Asked(BaseException):
+    """Ends a program that waits for a text; it is run again with the answer."""
+
+
+def begin(to_page):
+    """Put in place of windows what the page can do."""
+    global post
+    post = lambda kind, *blobs, **content: to_page(kind, json.dumps(content), blobs)  # noqa: E731
+    mpl.use("agg")
+    vars(mpl)["use"] = lambda *args, **options: None
+    plt.show = show
+    Animation.__init__, Animation.save = _note_film, _note_file
+    canim.checks.show = lambda report: post(
+        "report", html=report._repr_html_(), task=report.task.id, done=report.done
+    )
+    canim.plotting.pick_points = pick_points
+    canim.plotting.animate_chain = animate_chain
+    canim.plotting.weight_sliders = weight_sliders
+    warnings.showwarning = _warn
+
+
+def run(code, name, given, last):
+    """Run a program; return the name of a module that is missing, if this is not the `last` try."""
+    global answers, output
+    answers = json.loads(given) | {"texts read": 0}
+    path = Path.cwd() / name
+    start, before = time.monotonic(), _files()
+    linecache.cache[str(path)] = len(code), None, code.splitlines(keepends=True), str(path)
+    sys.modules["__main__"] = module = ModuleType("__main__")
+    module.__file__ = str(path)
+    builtins.input = _input
+    sys.stdout = sys.stderr = output = Output()
+    forget()
+    post("begin")
+    state = "done"
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("default")
+            try:
+                exec(compile(code, str(path), "exec", dont_inherit=True), vars(module))
+            finally:
+                if not isinstance(sys.exception(), MemoryError | Asked):
+                    show()
+    except Asked as question:
+        state = "asked"
+        post("question", text=str(question))
+    except SystemExit as end:
+        state = "ended"
+        if isinstance(end.code, str):
+            print(end.code)
+    except ModuleNotFoundError as error:
+        if not last:
+            return error.name
+        state = _tell(error, path)
+    except BaseException as error:
+        state = _tell(error, path)
+    output.flush()
+    for file in sorted(_files().items() - before.items()):
+        _send_file(Path(file[0]))
+    forget()
+    post("end", state=state, seconds=time.monotonic() - start)
+    return None
+
+
+def forget():
+    """Let nothing of a run be left for the next one, but its files."""
+    plt.close("all")
+    mpl.rcdefaults()
+    films.clear()
+    saved.clear()
+
+
+def _tell(error, path):
+    crash = explain(error, lambda name: name == str(path))
+    output.flush()
+    post("crash", text=f"The program {stops(crash)}", line=crash.line)
+    return "crashed"
+
+
+class Output(io.TextIOBase):
+    """Sends what is printed: soon, but not every word by itself, and not without end."""
+
+    def __init__(self):
+        self._room, self._count, self._waiting, self._sent = MOST, 0, [], time.monotonic()
+
+    def writable(self):
+        return True
+
+    def write(self, text):
+        if self._room > 0:
+            self._waiting.append(text[: self._room])
+            self._room -= len(text)
+            self._count += 1
+            if self._room <= 0:
+                self._waiting.append("\nNo more is shown: this is the first 1 MB of the output.\n")
+            if self._count < AT_ONCE or time.monotonic() - self._sent > 0.05:
+                self.flush()
+        return len(text)
+
+    def flush(self):
+        if self._waiting:
+            post("text", text="".join(self._waiting))
+        self._waiting, self._sent = [], time.monotonic()
+
+
+def _warn(message, category, filename, line, *rest):
+    own = filename == getattr(sys.modules["__main__"], "__file__", "")
+    print(f"Warning in line {line}: {message}" if own else f"Warning: {message}")
+
+
+def _input(prompt=""):
+    print(prompt, end="")
+    if answers["texts read"] == len(answers.get("texts", ())):
+        raise Asked(prompt)
+    answers["texts read"] += 1
+    text = answers["texts"][answers["texts read"] - 1]
+    print(text)
+    return text
+
+
+# -- Figures and films -----------------------------------------------------
+
+
+def show(*args, **options):
+    """Send all figures, then the films' frames, which take longer."""
+    figures = [plt.figure(number) for number in plt.get_fignums()]
+    for figure in figures:
+        file = io.BytesIO()
+        figure.savefig(file, format="png", dpi=DPI, pil_kwargs={"compress_level": 1})
+        width = round(figure.get_figwidth() * PAGE_DPI)
+        height = round(figure.get_figheight() * PAGE_DPI)
+        film = id(figure) if figure in films else 0
+        post("figure", file.getvalue(), alt=describe(figure), width=width, height=height, film=film)
+    plt.close("all")  # what goes wrong below does not show them again
+    for figure in figures:
+        if figure in saved:
+            _send_gif(id(figure), saved[figure])
+        elif figure in films:
+            film = films[figure]
+            figure.set_layout_engine("none")  # it was laid out for the still, and need not be again
+            figure.set_dpi(FILM_DPI)
+            film.save("film", writer=Frames(id(figure), film._interval), dpi=FILM_DPI)
+
+
+def describe(figure):
+    """Return in words what is written in a figure."""
+    words = [f"Your picture {figure.get_label()}".strip()]
+    for ax in figure.axes:
+        names = [line.get_label() for line in ax.lines if not line.get_label().startswith("_")]
+        names += [text.get_text() for text in ax.texts]
+        parts = [ax.get_title(), f"x: {ax.get_xlabel()}", f"y: {ax.get_ylabel()}", ", ".join(names)]
+        words.append("; ".join(p for p in parts if p and not p.endswith(": ")))
+    return ". ".join(part for part in words if part) + "."
+
+
+def _note_film(film, figure, *args, **options):
+    _begin_film(film, figure, *args, **options)
+    films[figure] = film
+
+
+def _note_file(film, filename, *args, **options):
+    _save_film(film, filename, *args, **options)
+    if str(filename).endswith(".gif"):
+        saved[film._fig] = Path(filename)
+
+
+class Frames(AbstractMovieWriter):
+    """Sends the frames of a film as they are drawn."""
+
+    def __init__(self, name, interval):
+        super().__init__()
+        self._name, self._interval, self._last, self._count = name, interval, b"", 0
+
+    def setup(self, fig, outfile, dpi=None):
+        super().setup(fig, outfile, dpi)
+
+    def grab_frame(self, **options):
+        canvas = self.fig.canvas
+        canvas.draw()
+        drawn = canvas.buffer_rgba().tobytes()
+        self._count += 1
+        if self._count <= FRAMES:
+            image = Image.frombuffer("RGBA", canvas.get_width_height(), drawn)
+            png = b"" if drawn == self._last else _png(image.convert("RGB"))
+            post("frame", png, film=self._name, interval=self._interval)
+        self._last = drawn
+
+    def finish(self):
+        post("frames end", film=self._name)
+
+
+def _send_gif(name, path):
+    with Image.open(path) as gif:
+        for frame in ImageSequence.Iterator(gif):
+            interval = frame.info.get("duration") or 100
+            post("frame", _png(frame.convert("RGB")), film=name, interval=interval)
+    post("frames end", film=name)
+
+
+def _png(image):
+    file = io.BytesIO()
+    image.save(file, "PNG", compress_level=1)
+    return file.getvalue()
+
+
+# -- Files -----------------------------------------------------------------
+
+
+def _files():
+    return {str(path): path.stat().st_mtime_ns for path in Path.cwd().iterdir() if path.is_file()}
+
+
+def _send_file(path):
+    """Send a file that the program wrote, for the reader to save; a GIF is shown as well."""
+    shown = {file.resolve() for file in saved.values()}
+    if path.suffix == ".gif" and path.resolve() not in shown:
+        name = path.name
+        with Image.open(path) as gif:
+            size = dict(zip(("width", "height"), gif.size))
+            post("figure", _png(gif.convert("RGB")), alt=f"Your film {name}", film=name, **size)
+        _send_gif(path.name, path)
+    post("file", path.read_bytes(), name=path.name)
+
+
+def keep_file(name, content):
+    """Put a file of the reader's beside the program."""
+    Path(os.path.basename(name)).write_bytes(content)
+
+
+# -- Questions to the reader -----------------------------------------------
+
+
+def pick_points(image_a, image_b, points_a, points_b, *, click=False):
+    """As `canim.plotting.pick_points`; points are moved in the page, for the next run."""
+    if click:
+        images = [Image.fromarray(np.asarray(image)) for image in (image_a, image_b)]
+        frames = [(-0.5, image.width - 0.5, -0.5, image.height - 0.5) for image in images]
+        points_a, points_b = _points("points", images, frames, [points_a, points_b], 1)
+    return _pick_points(image_a, image_b, points_a, points_b)
+
+
+def animate_chain(ax, reach, forward, angles, offsets, goals, *, click=False):
+    """As `canim.plotting.animate_chain`; the goals are chosen in the page."""
+    if click:
+        ax.figure.canvas.draw()
+        x0, y0, x1, y1 = np.round(ax.get_window_extent().extents).astype(int)
+        drawn = np.asarray(ax.figure.canvas.buffer_rgba())
+        ground = Image.fromarray(drawn[len(drawn) - y1 : len(drawn) - y0, x0:x1].copy())
+        frame = (*ax.get_xlim(), *ax.get_ylim()[::-1])
+        (goals,) = _points("goals", [ground], [frame], [goals], 0.05)
+    return _animate_chain(ax, reach, forward, angles, offsets, goals)
+
+
+def weight_sliders(*args, **options):
+    """Say why there are none."""
+    print("The sliders need a window: run this program on your own computer to move them.")
+    return []
+
+
+def _points(kind, images, frames, lists, step):
+    """Return the points that the reader has chosen for these pictures, else the given ones."""
+    first = [np.asarray(points, dtype=float).tolist() for points in lists]
+    frames = [[float(number) for number in frame] for frame in frames]
+    chosen = answers.get(kind)
+    lists = chosen["lists"] if chosen and chosen["frames"] == frames else first
+    pictures = [_png(image.convert("RGB")) for image in images]
+    post("points", *pictures, name=kind, frames=frames, lists=lists, first=first, step=step)
+    return [np.array(points, dtype=float).reshape(-1, 2) for points in lists]

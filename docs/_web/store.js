@@ -1,0 +1,31 @@
+// What is kept in the reader's browser, and nowhere else.
+
+const PREFIX = "canim ";
+
+/** @param {string} key @returns {any} */
+export function recall(key) {
+  try {
+    return JSON.parse(localStorage.getItem(PREFIX + key) ?? "null");
+  } catch {
+    return null;
+  }
+}
+
+/** @param {string} key @param {any} value @returns {boolean} whether the browser keeps it */
+export function keep(key, value) {
+  try {
+    if (value === null) localStorage.removeItem(PREFIX + key);
+    else localStorage.setItem(PREFIX + key, JSON.stringify(value));
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+/** Tell when another tab has changed what is kept.
+ *  @param {string} key @param {(value: any) => void} changed */
+export function watch(key, changed) {
+  addEventListener("storage", (event) => {
+    if (event.key === PREFIX + key) changed(recall(key));
+  });
+}
