@@ -27,7 +27,9 @@ def test_a_mistake_gets_its_own_hint_and_no_other(task, mistake, solved):
     assert [hint for _, hint in report.hints] == [mistake.hint], str(report)
     assert mistake.hint in " ".join(str(report).split())
     assert "Pseudocode:" not in str(report)
-    shown = " ".join(str(checks.run(task, solved(task) | dict(mistake.program), hint=2)).split())
+    whole = str(checks.run(task, solved(task) | dict(mistake.program), hint=2))
+    assert max(map(len, whole.splitlines())) <= 90
+    shown = " ".join(whole.split())
     lines = {mistake.line} if mistake.line else set(task.lines.values())
     assert any(f"Pseudocode: {line}" in shown for line in lines)
 
