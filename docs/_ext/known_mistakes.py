@@ -36,7 +36,7 @@ class KnownMistakes(SphinxDirective):
 
     def section(self, task):
         title = f"Task {task.id}: {task.title}"
-        section = nodes.section(ids=[f"mistakes-{nodes.make_id(task.id)}"], names=[])
+        section = nodes.section(ids=[f"mistakes-{task.id.replace('.', '-')}"], names=[])
         section += nodes.title("", title)
         section += _table(
             ["Part", "Its line of the pseudocode"],

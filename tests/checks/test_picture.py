@@ -106,6 +106,15 @@ def test_what_differs_is_drawn_and_nothing_else():
     assert drawn() == ()
 
 
+def test_two_mistakes_in_two_parts_give_two_pictures_and_two_hints():
+    wrong = hermite(H1=lambda t: -3 * t**3 + 3 * t**2, H3=lambda t: t**3 + t**2)
+    report = checks.run(TASK, wrong, hint=True)
+    assert [r.state for r in report.results] == ["done", "differs", "done", "differs"]
+    assert [part for part, _ in report.hints] == ["H1, end value", "H3, end slope"]
+    assert [drawing.part for drawing in report.drawings] == ["H1, end value", "H3, end slope"]
+    assert str(report).count("Hint: ") == 2
+
+
 @pytest.mark.parametrize("large", [1e6, np.inf])
 def test_numbers_much_too_large_are_not_drawn(large):
     assert drawn(H1=lambda t: t + large) == ()

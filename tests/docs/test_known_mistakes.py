@@ -24,6 +24,14 @@ def test_a_mistake_is_listed_where_the_check_recognises_it():
     assert all(found.values())
 
 
+def test_every_task_has_a_section_of_its_own_name(monkeypatch):
+    monkeypatch.setattr(known_mistakes, "shows_in", lambda *args: ["part"])
+    directive = object.__new__(known_mistakes.KnownMistakes)
+    sections = directive.run()[2:]
+    assert len({section["ids"][0] for section in sections}) == len(sections) == len(checks.TASKS)
+    assert sections[0].astext().startswith("Task 0.0: Blend two points")
+
+
 def test_a_table_has_a_head_and_takes_texts_numbers_and_nodes():
     literal = known_mistakes.nodes.literal("", "x = 1")
     table = known_mistakes._table(["a", "b"], [["name", 3], [literal, "text"]])
