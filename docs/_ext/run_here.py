@@ -30,8 +30,6 @@ NEEDS_SCRIPT = ("<canim-run", "task-cards")
 
 
 def _prepare(app, config):
-    if not (WEB / "run.js").exists():
-        return
     try:
         files = run_files.make(served_wheel())
     except pyodide.Mismatch as error:
@@ -69,7 +67,7 @@ def _bundle(entries, folder, form, known):
         "format": form,
         "run": known,
     }
-    command = [NODE, WEB / "bundle.mjs", json.dumps(job)]
+    command = [NODE, pyodide.DOCS / "_ext/bundle.mjs", json.dumps(job)]
     built = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", check=False)
     if built.returncode:
         raise ExtensionError(f"run here: {built.stderr}")

@@ -5,7 +5,12 @@ import { button, make } from "./elements.js";
 /** @typedef {[number, number]} Point
  *  @typedef {{frames: number[][], lists: Point[][]}} Chosen */
 
-const ARROWS = new Map([["ArrowLeft", [-1, 0]], ["ArrowRight", [1, 0]], ["ArrowUp", [0, -1]], ["ArrowDown", [0, 1]]]);
+const ARROWS = new Map([
+  ["ArrowLeft", [-1, 0]],
+  ["ArrowRight", [1, 0]],
+  ["ArrowUp", [0, -1]],
+  ["ArrowDown", [0, 1]],
+]);
 
 export class Points {
   /** @param {import("./python.js").Message} message @param {(chosen: Chosen) => void} use */
@@ -25,11 +30,18 @@ export class Points {
     this.told = make("output");
     const what = name === "goals" ? "goals" : "key points";
     this.element = make(
-      "section", { className: "run-points", "aria-label": `Choose the ${what}` },
-      make("p", {}, `This program asks for ${what}. It has used those below. Click on a picture to add one, drag
-        one to move it, or go to one with Tab and press the arrow keys (with Shift: farther). Delete takes it away.`),
+      "section",
+      { className: "run-points", "aria-label": `Choose the ${what}` },
+      make(
+        "p",
+        {},
+        `This program asks for ${what}. It has used those below. Click on a picture to add one, drag
+        one to move it, or go to one with Tab and press the arrow keys (with Shift: farther). Delete takes it away.`,
+      ),
       make("div", { className: "run-grounds" }, ...this.grounds),
-      make("p", { className: "run-bar" },
+      make(
+        "p",
+        { className: "run-bar" },
         button(`Run with these ${what}`, () => use({ frames: this.frames, lists: this.lists }), "run-main"),
         button("Add a point", () => this.#add([0.5, 0.5])),
         button("The first ones again", () => this.#draw((this.lists = structuredClone(first)))),

@@ -39,6 +39,8 @@ class Run extends HTMLElement {
   #text = "";
   #state = "idle"; // or "loading", when Run waits for Python; "running"
   #again = false;
+  /** @type {Promise<void> | undefined} */
+  offline;
   /** @type {{[kind: string]: any}} what the reader has answered to the program */
   #answers = {};
   /** @type {{name: string, bytes: Uint8Array}[]} */
@@ -70,8 +72,10 @@ class Run extends HTMLElement {
     this.stop = button("Stop", () => this.#stop("Stopped."));
     this.stop.disabled = true;
     const bar = make(
-      "div", { className: "run-bar", role: "group", "aria-label": "The program" },
-      this.run, this.stop,
+      "div",
+      { className: "run-bar", role: "group", "aria-label": "The program" },
+      this.run,
+      this.stop,
       button("Start over", () => confirm("Take the starter again? Your own program is lost.") && this.#startOver()),
       button("Download .py", () => save(this.#name, [this.#text])),
     );
@@ -85,7 +89,11 @@ class Run extends HTMLElement {
     this.output = make("div", { className: "run-output", role: "log", "aria-label": "What the program shows" });
     this.asked = make("div");
     this.output.append(this.shown);
-    const keys = make("p", { className: "run-keys" }, "Ctrl+Enter runs the program. Escape, then Tab, leaves the editor.");
+    const keys = make(
+      "p",
+      { className: "run-keys" },
+      "Ctrl+Enter runs the program. Escape, then Tab, leaves the editor.",
+    );
     this.replaceChildren(this.notice, this.code, keys, bar, this.status, this.asked, this.output);
     this.#lookAt();
     this.code.addEventListener("pointerenter", () => this.#edit());
@@ -209,7 +217,11 @@ class Run extends HTMLElement {
     this.#state = this.python?.isReady ? "running" : "loading";
     if (this.stop) this.stop.disabled = false;
     this.#prepare();
-    this.#say(this.python?.isReady ? "Running …" : `Python is loading, ${megabytes(this.#text)} MB the first time. Then your program runs.`);
+    this.#say(
+      this.python?.isReady
+        ? "Running …"
+        : `Python is loading, ${megabytes(this.#text)} MB the first time. Then your program runs.`,
+    );
     this.status?.scrollIntoView({ block: "nearest" });
     this.#order("run");
   }
@@ -245,7 +257,8 @@ class Run extends HTMLElement {
   #hear(message) {
     const { kind, blobs } = message;
     if (kind === "ready") {
-      if (this.#state === "idle" && this.status?.textContent?.startsWith("Python is loading")) this.#say("Python is ready.");
+      if (this.#state === "idle" && this.status?.textContent?.startsWith("Python is loading"))
+        this.#say("Python is ready.");
     } else if (kind === "begin") this.#begin();
     else if (kind === "text") this.#print(message.text);
     else if (kind === "figure") this.#show(message, blobs[0]);
@@ -253,8 +266,16 @@ class Run extends HTMLElement {
     else if (kind === "frames end") this.#films.get(message.film)?.complete();
     else if (kind === "report") this.#report(message);
     else if (kind === "crash") this.#crash(message);
-    else if (kind === "file") this.shown?.append(make("p", {}, button(`Save ${message.name}`, () => save(message.name, blobs))));
-    else if (kind === "points") this.asked?.append(new Points(message, (chosen) => this.#answer(message.name, chosen)).element);
+    else if (kind === "file")
+      this.shown?.append(
+        make(
+          "p",
+          {},
+          button(`Save ${message.name}`, () => save(message.name, blobs)),
+        ),
+      );
+    else if (kind === "points")
+      this.asked?.append(new Points(message, (chosen) => this.#answer(message.name, chosen)).element);
     else if (kind === "question") this.#question(message.text);
     else if (kind === "end") this.#end(message);
     else if (kind === "failed") this.#stop(`Python has stopped, and a new one is loading. ${message.text}`);
@@ -312,7 +333,10 @@ class Run extends HTMLElement {
       const texts = [...(this.#answers.texts ?? []), field.value];
       this.#answer("texts", texts);
     };
-    form.append(make("label", {}, prompt || "The program asks for a text with input():", " ", field), make("button", {}, "Answer"));
+    form.append(
+      make("label", {}, prompt || "The program asks for a text with input():", " ", field),
+      make("button", {}, "Answer"),
+    );
     this.asked?.append(form);
     field.focus();
   }
@@ -329,9 +353,11 @@ class Run extends HTMLElement {
     const time = seconds < 0.05 ? "" : ` after ${seconds.toFixed(1)} s`;
     if (state !== "asked") delete this.#answers.texts;
     this.#ended(
-      state === "crashed" ? `Your program stopped${time}. Below it says why.`
-      : state === "asked" ? "Your program waits for an answer."
-      : `Your program ended${time}.`,
+      state === "crashed"
+        ? `Your program stopped${time}. Below it says why.`
+        : state === "asked"
+          ? "Your program waits for an answer."
+          : `Your program ended${time}.`,
     );
   }
 }

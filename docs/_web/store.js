@@ -25,7 +25,7 @@ export function keep(key, value) {
 /** Tell when another tab has changed what is kept.
  *  @param {string} key @param {(value: any) => void} changed */
 export function watch(key, changed) {
-  addEventListener("storage", (event) => {
+  window.addEventListener("storage", (event) => {
     if (event.key === PREFIX + key) changed(recall(key));
   });
 }
