@@ -25,6 +25,8 @@ from sphinx.util.docutils import SphinxDirective
 logger = logging.getLogger(__name__)
 
 WEB = pyodide.DOCS / "_web"
+PACKAGES = pyodide.DOCS / "node_modules"
+TEXTS = "licences.txt"
 # Where a page has one of these, a script waits for it.
 NEEDS_SCRIPT = ("<canim-run", "task-cards")
 
@@ -44,6 +46,8 @@ def _prepare(app, config):
     known["version"] = _digest(files, worker, scripts / "editor.js")
     known["folder"] = f"_run/{known['version']}/"
     bundled += _bundle(["run.js"], scripts, "iife", known)
+    bundled = sorted({*bundled} - {"pyodide"})
+    (scripts / TEXTS).write_text(_licence_texts(bundled), encoding="utf-8")
     config.run_here = True
     config.run_scripts = _digest(scripts)
     config.html_static_path.append(str(scripts))
@@ -83,9 +87,16 @@ def _digest(*paths):
 
 
 def _licences(packages):
-    for name in sorted({*packages} - {"pyodide"}):
-        about = json.loads((pyodide.CORE.parent / name / "package.json").read_bytes())
+    for name in packages:
+        about = json.loads((PACKAGES / name / "package.json").read_bytes())
         yield name, about["version"], about["license"]
+
+
+def _licence_texts(packages):
+    """Return what the authors ask to be handed on with their scripts."""
+    files = [path for name in packages for path in (PACKAGES / name).glob("LICENSE*")]
+    texts = [f"{path.parent.name}\n\n{path.read_text(encoding='utf-8')}" for path in files]
+    return ("\n" + "-" * 72 + "\n").join(texts)
 
 
 def _add_script(app, pagename, templatename, context, doctree):
@@ -123,7 +134,9 @@ class Licences(SphinxDirective):
             for row in rows
         ]
         table += [nodes.thead("", head), nodes.tbody("", *body)]
-        return [nodes.table("", table)]
+        text = "The licences of the npm packages, in full"
+        link = nodes.reference("", text, refuri=f"_static/{TEXTS}")
+        return [nodes.table("", table), nodes.paragraph("", "", link)]
 
 
 def setup(app):
