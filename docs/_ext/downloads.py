@@ -34,13 +34,13 @@ def _say_how_to_install(app, config):
     wheel = escape(served_wheel().name)
     if RELEASE.site:
         what = f"{RELEASE.site.rstrip('/')}/wheels/{wheel}"
-        first = "Once, before the first task: open a terminal and type"
+        first = "To work on your own computer, open a terminal once and type"
     else:
         what = wheel
         link = f'<a href="{{up}}wheels/{wheel}" download>{wheel}</a>'
         first = (
-            f"Once, before the first task: download {link}, open a terminal in the folder of "
-            "the download and type"
+            f"To work on your own computer, download {link}, open a terminal in the folder of "
+            "the download and type, once,"
         )
     config.install_line = (
         f'<p class="task-install">{first} <code>python -m pip install {escape(what)}</code>. '

@@ -17,7 +17,7 @@ const mark = StateField.define({
   update(marks, transaction) {
     for (const effect of transaction.effects) {
       if (effect.is(crashed)) {
-        if (effect.value < 1 || effect.value > transaction.state.doc.lines) return Decoration.none;
+        if (!effect.value || effect.value > transaction.state.doc.lines) return Decoration.none;
         const { from } = transaction.state.doc.line(effect.value);
         return Decoration.set(Decoration.line({ class: "run-crashed" }).range(from));
       }
@@ -28,31 +28,20 @@ const mark = StateField.define({
 });
 
 /** @param {Element} parent @param {string} text
- *  @param {{changed: (text: string) => void, run: () => void}} on */
-export function edit(parent, text, on) {
-  const run = () => (on.run(), true);
+ *  @param {(text: string) => void} changed @param {() => void} run */
+export function edit(parent, text, changed, run) {
+  const label = "Program: Escape, then Tab, leaves the editor";
   const view = new EditorView({
     parent,
     state: EditorState.create({
       doc: text,
       extensions: [
-        keymap.of([{ key: "Mod-Enter", run }, indentWithTab]),
-        keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...historyKeymap]),
-        lineNumbers(),
-        history(),
-        indentOnInput(),
-        bracketMatching(),
-        closeBrackets(),
-        highlightActiveLine(),
-        indentUnit.of("    "),
-        python(),
-        syntaxHighlighting(classHighlighter),
-        mark,
-        EditorView.contentAttributes.of({
-          tabindex: "0",
-          "aria-label": "Program: Escape, then Tab, leaves the editor",
-        }),
-        EditorView.updateListener.of((update) => update.docChanged && on.changed(update.state.doc.toString())),
+        keymap.of([{ key: "Mod-Enter", run: () => (run(), true) }, indentWithTab, ...closeBracketsKeymap]),
+        keymap.of([...defaultKeymap, ...historyKeymap]),
+        [lineNumbers(), history(), indentOnInput(), bracketMatching(), closeBrackets(), highlightActiveLine()],
+        [indentUnit.of("    "), python(), syntaxHighlighting(classHighlighter), mark],
+        EditorView.contentAttributes.of({ tabindex: "0", "aria-label": label }),
+        EditorView.updateListener.of((update) => update.docChanged && changed(update.state.doc.toString())),
       ],
     }),
   });

@@ -8,7 +8,7 @@ export class Film {
   /** @type {Blob[]} */
   #frames = [];
   #shown = 0;
-  #complete = false;
+  isComplete = false;
   #interval = 40;
   /** @type {ReturnType<typeof setTimeout> | undefined} */
   #timer;
@@ -26,18 +26,16 @@ export class Film {
     this.element = make("div", { className: "run-film" }, this.canvas, make("div", {}, this.play, this.slider));
   }
 
-  /** @param {Uint8Array<ArrayBuffer>} png empty where the picture before is shown again
+  /** @param {Uint8Array<ArrayBuffer>[]} png none where the film ends, empty for the picture before once more
    *  @param {number} interval milliseconds from picture to picture */
-  add(png, interval) {
+  add([png], interval) {
+    this.isComplete = !png;
+    if (!png) return;
     this.#interval = interval;
     this.#frames.push(png.length ? new Blob([png]) : this.#frames[this.#frames.length - 1]);
     this.slider.max = String(this.#frames.length - 1);
     if (this.#frames.length === 1) this.#show(0);
     if (this.#frames.length === 2 && !CALM.matches) this.start();
-  }
-
-  complete() {
-    this.#complete = true;
   }
 
   start() {
@@ -55,7 +53,7 @@ export class Film {
     const last = this.#frames.length - 1;
     // At its end a film begins again; one that is still being drawn waits.
     if (this.#shown < last) await this.#show(this.#shown + 1);
-    else if (this.#complete) await this.#show(0);
+    else if (this.isComplete) await this.#show(0);
     if (this.#timer && this.canvas.isConnected) this.start();
   }
 

@@ -17,8 +17,9 @@ export class Python {
   constructor(address, tell) {
     this.address = address;
     this.tell = tell;
-    this.isReady = false;
   }
+
+  isReady = false;
 
   /** @param {Order} order */
   send(order) {

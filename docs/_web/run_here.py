@@ -31,7 +31,7 @@ MOST = 1_000_000  # characters that a program may print
 AT_ONCE = 200  # prints that are sent one by one; after them, what was printed in 50 ms
 DPI, FILM_DPI = 160, 100
 PAGE_DPI = 100  # a figure of 6.4 inches is 640 pixels wide on the page
-FRAMES = 500  # the most that a film may have
+FRAMES = 500  # of a film; what comes later is left out
 
 _save_film, _begin_film = Animation.save, Animation.__init__
 _pick_points, _animate_chain = canim.plotting.pick_points, canim.plotting.animate_chain
@@ -74,7 +74,7 @@ def run(code, name, given, last):
     sys.stdout = sys.stderr = output = Output()
     forget()
     post("begin")
-    state = "done"
+    asked, words = False, "Your program ended"
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("default")
@@ -84,23 +84,22 @@ def run(code, name, given, last):
                 if not isinstance(sys.exception(), MemoryError | Asked):
                     show()
     except Asked as question:
-        state = "asked"
+        asked, words = True, "Your program waits for an answer"
         post("question", text=str(question))
     except SystemExit as end:
-        state = "ended"
         if isinstance(end.code, str):
             print(end.code)
     except ModuleNotFoundError as error:
         if not last:
             return error.name
-        state = _tell(error, path)
+        words = _tell(error, path)
     except BaseException as error:
-        state = _tell(error, path)
+        words = _tell(error, path)
     output.flush()
     for file in sorted(_files().items() - before.items()):
         _send_file(Path(file[0]))
     forget()
-    post("end", state=state, seconds=time.monotonic() - start)
+    post("end", text=f"{words} after {time.monotonic() - start:.1f} s.", asked=asked)
     return None
 
 
@@ -116,7 +115,7 @@ def _tell(error, path):
     crash = explain(error, lambda name: name == str(path))
     output.flush()
     post("crash", text=f"The program {stops(crash)}", line=crash.line)
-    return "crashed"
+    return "Your program stopped, as it says below,"
 
 
 class Output(io.TextIOBase):
@@ -152,7 +151,7 @@ def _warn(message, category, filename, line, *rest):
 
 def _input(prompt=""):
     print(prompt, end="")
-    if answers["texts read"] == len(answers.get("texts", ())):
+    if answers["texts read"] == len(answers["texts"]):
         raise Asked(prompt)
     answers["texts read"] += 1
     text = answers["texts"][answers["texts read"] - 1]
@@ -211,24 +210,28 @@ class Frames(AbstractMovieWriter):
 
     def __init__(self, name, interval):
         super().__init__()
-        self._name, self._interval, self._last, self._count = name, interval, b"", 0
+        # To draw every other picture takes half the time, and looks smooth enough.
+        self._every = 2 if interval < 50 else 1
+        self._name, self._interval = name, interval * self._every
+        self._last, self._count = b"", 0
 
     def setup(self, fig, outfile, dpi=None):
         super().setup(fig, outfile, dpi)
 
     def grab_frame(self, **options):
+        self._count += 1
+        if self._count % self._every or self._count > FRAMES:
+            return
         canvas = self.fig.canvas
         canvas.draw()
         drawn = canvas.buffer_rgba().tobytes()
-        self._count += 1
-        if self._count <= FRAMES:
-            image = Image.frombuffer("RGBA", canvas.get_width_height(), drawn)
-            png = b"" if drawn == self._last else _png(image.convert("RGB"))
-            post("frame", png, film=self._name, interval=self._interval)
+        image = Image.frombuffer("RGBA", canvas.get_width_height(), drawn)
+        png = b"" if drawn == self._last else _png(image.convert("RGB"))
+        post("frame", png, film=self._name, interval=self._interval)
         self._last = drawn
 
     def finish(self):
-        post("frames end", film=self._name)
+        post("frame", film=self._name)
 
 
 def _send_gif(name, path):
@@ -236,7 +239,7 @@ def _send_gif(name, path):
         for frame in ImageSequence.Iterator(gif):
             interval = frame.info.get("duration") or 100
             post("frame", _png(frame.convert("RGB")), film=name, interval=interval)
-    post("frames end", film=name)
+    post("frame", film=name)
 
 
 def _png(image):
@@ -277,7 +280,9 @@ def pick_points(image_a, image_b, points_a, points_b, *, click=False):
     if click:
         images = [Image.fromarray(np.asarray(image)) for image in (image_a, image_b)]
         frames = [(-0.5, image.width - 0.5, -0.5, image.height - 0.5) for image in images]
-        points_a, points_b = _points("points", images, frames, [points_a, points_b], 1)
+        lists = _points("points", images, frames, [points_a, points_b], 1)
+        last = [np.subtract(image.size, 1) for image in images]  # the centre of a corner's pixel
+        points_a, points_b = (np.clip(points, 0, end) for points, end in zip(lists, last))
     return _pick_points(image_a, image_b, points_a, points_b)
 
 

@@ -323,8 +323,9 @@ def reach(angles, offsets, goal):
 # %%
 # Check and draw
 # --------------
-# Your film shows each of your steps. If you run the program in a window of its own, set
-# ``click = True``: then the chain follows your mouse. Before you start the check says:
+# Your film shows each of your steps. With ``click = True`` you choose the goals. On this page you
+# put them on a picture; in a window of its own, the chain follows your mouse. Before you start
+# the check says:
 
 canim.check("3.2", jacobian=jacobian, reach=reach)
 
