@@ -36,7 +36,6 @@ async function obey(order) {
   if (order.kind === "load") return post("ready");
   await pyodide.loadPackage(order.packages, silent); // the program may ask for more by now
   for (const { name, bytes } of order.files) python.get("keep_file")(name, pyodide.toPy(bytes));
-  await pyodide.loadPackage(order.packages, silent); // the program may need more by now
   await pyodide.loadPackagesFromImports(order.code, silent).catch(() => []); // not if it is not Python
   const run = (/** @type {boolean} */ last) => python.get("run")(order.code, order.name, order.answers, last);
   const missing = run(false);
