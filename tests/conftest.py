@@ -6,9 +6,10 @@ import contextlib
 import os
 import sys
 import tempfile
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 import hypothesis
@@ -20,6 +21,25 @@ os.environ["MPLBACKEND"] = "agg"
 # A busy machine makes any single example slow.
 hypothesis.settings.register_profile("canim", deadline=None)
 hypothesis.settings.load_profile("canim")
+
+
+@pytest.fixture(scope="session")
+def kept_guard() -> Iterator[Any]:
+    """One guard for all tests: what programs import is loaded once."""
+    from canim.checks import guard
+
+    kept = guard.make(many=True)
+    yield kept
+    kept.close()
+
+
+@pytest.fixture
+def one_guard(kept_guard: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let `canim check FILE` use the guard that is kept."""
+    from canim.checks import file
+
+    lent = SimpleNamespace(start=kept_guard.start, end=kept_guard.end, close=lambda: None)
+    monkeypatch.setattr(file, "make", lambda: lent)
 
 
 @pytest.fixture(scope="session")

@@ -12,6 +12,8 @@ from canim import checks
 from canim.checks import file as files
 from canim.cli import main
 
+pytestmark = pytest.mark.usefixtures("one_guard")
+
 TASK = checks.TASKS["1.1"]
 FILE = TASK.file_name
 DONE = """
@@ -275,10 +277,14 @@ def test_a_file_that_cannot_be_used_exits_2_with_a_sentence(folder, name, conten
     assert "Traceback" not in err
 
 
-def test_a_folder_is_refused(folder, capsys):
-    (folder / "folder.py").mkdir()
-    assert main(["check", "folder.py"]) == 2
-    assert "cannot be read" in capsys.readouterr().err
+def test_a_file_that_the_system_does_not_give_is_refused(monkeypatch, capsys):
+    def refuse(*args, **kwargs):
+        raise PermissionError(13, "Permission denied")
+
+    write("mine.py", DONE)
+    monkeypatch.setattr(files.Path, "read_text", refuse)
+    assert main(["check", "mine.py"]) == 2
+    assert "mine.py cannot be read: Permission denied." in capsys.readouterr().err
 
 
 def test_a_value_error_of_the_parser_is_told(monkeypatch, capsys):

@@ -10,6 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 
 from canim import checks
+from canim.checks.guard import Limits
 from canim.checks.report import printable
 
 
@@ -21,7 +22,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     start = commands.add_parser("start", help="write the starter of a task into this folder")
     start.add_argument("task", help="number of the task, as in 1.3")
     check = commands.add_parser("check", help="check a program or notebook")
-    check.add_argument("file", type=Path, help="a .py or .ipynb file")
+    check.add_argument("file", type=Path, help="a .py or .ipynb file, or a folder of them")
     check.add_argument("--task", help="number of the task, where the file does not say it")
     check.add_argument(
         "--hint",
@@ -30,7 +31,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
         help="show hints for known mistakes; given twice, also the lines of the pseudocode",
     )
     check.add_argument(
-        "--time", type=seconds, default=60, metavar="SECONDS", help="limit (default: %(default)s)"
+        "--time",
+        type=amount,
+        default=Limits.seconds,
+        metavar="SECONDS",
+        help="limit (default: %(default)s)",
+    )
+    check.add_argument(
+        "--memory",
+        type=amount,
+        default=Limits.megabytes,
+        metavar="MB",
+        help="limit (default: %(default)s)",
+    )
+    check.add_argument(
+        "--report",
+        type=table,
+        metavar="FILE",
+        help="of a folder: write all results as .csv or .json",
+    )
+    check.add_argument(
+        "--jobs", type=jobs, default=-1, metavar="N", help="of a folder: files at the same time"
     )
     check.add_argument(
         "--figure", type=png_file, metavar="FILE.png", help="draw expected and got into this file"
@@ -40,7 +61,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _tasks()
     if asked.command == "start":
         return _start(asked.task)
-    return _check(asked.file, asked.task, asked.hint, asked.time, asked.figure)
+    limits = Limits(asked.time, asked.memory)
+    if asked.file.is_dir():
+        return _check_folder(asked.file, asked.task, limits, asked.jobs, asked.report)
+    return _check(asked.file, asked.task, asked.hint, limits, asked.figure)
 
 
 def _tasks() -> int:
@@ -71,15 +95,52 @@ def _start(number: str) -> int:
     return 0
 
 
-def _check(path: Path, task: str | None, hint: int, limit: float, figure: Path | None) -> int:
+def _check(path: Path, task: str | None, hint: int, limits: Limits, figure: Path | None) -> int:
     from canim.checks.file import UnusableFile, check_file
 
     try:
-        report = check_file(path, task=task, hint=hint, limit=limit, figure=figure)
+        report = check_file(path, task=task, hint=hint, limits=limits, figure=figure)
     except UnusableFile as problem:
         return _refuse(str(problem))
     checks.show(report)
     return 0 if report.done else 1
+
+
+def _check_folder(
+    path: Path, task: str | None, limits: Limits, jobs: int, report: Path | None
+) -> int:
+    from canim.checks import folder
+
+    if not any(folder.find(path)):
+        return _refuse(f"{path} holds no .py and no .ipynb file.")
+    if jobs != 1 and not folder.can_share():
+        print(folder.ONE_BY_ONE, file=sys.stderr)
+    rows = folder.check_folder(path, task=task, limits=limits, jobs=jobs, progress=_progress)
+    for line in folder.summary(rows):
+        print(printable(line))
+    if report:
+        try:
+            folder.write(rows, report)
+        except OSError as error:
+            return _refuse(f"{report} cannot be written: {error.strerror}.")
+        print(printable(f"All results are in {report} now."))
+    return 0 if all(row["passed"] for row in rows) else 1
+
+
+def _progress(done: int, total: int) -> None:
+    """Show how far it is, where somebody looks on: a file or a program gets no bar."""
+    if sys.stderr.isatty():
+        bar = "#" * (30 * done // total)
+        end = "\n" if done == total else ""
+        print(f"\r[{bar:.<30}] {done} of {total} files", end=end, file=sys.stderr, flush=True)
+
+
+def jobs(text: str) -> int:
+    """Return a number of files to check at the same time: from 1 on, or -1, as many as cores."""
+    jobs = int(text)
+    if jobs < 1 and jobs != -1:
+        raise ValueError(text)
+    return jobs
 
 
 def png_file(text: str) -> Path:
@@ -90,12 +151,19 @@ def png_file(text: str) -> Path:
     return path
 
 
-def seconds(text: str) -> float:
-    """Return a time limit: a number above 0."""
-    seconds = float(text)
-    if not 0 < seconds < math.inf:
+def table(text: str) -> Path:
+    """Return the file for the results, of a kind that can be written."""
+    if not text.endswith((".csv", ".json")):
+        raise argparse.ArgumentTypeError(f"{text!r} must end in .csv or .json")
+    return Path(text)
+
+
+def amount(text: str) -> float:
+    """Return a limit: a number above 0."""
+    amount = float(text)
+    if not 0 < amount < math.inf:
         raise ValueError(text)
-    return seconds
+    return amount
 
 
 def _refuse(sentence: str) -> int:

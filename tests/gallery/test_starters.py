@@ -13,6 +13,8 @@ import starter
 from canim import checks
 from canim.cli import main
 
+pytestmark = pytest.mark.usefixtures("one_guard")
+
 TASKS = list(checks.TASKS.values())
 BY_TASK = pytest.mark.parametrize("task", TASKS, ids=lambda task: task.id)
 COUNT_FIGURES = """

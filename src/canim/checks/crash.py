@@ -165,6 +165,7 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (ModuleNotFoundError, "", "The module {name} is not installed. Look at its spelling, too."),
     (ImportError, "name '(?P<name>[^']+)' from", "There is nothing called {name} to import there."),
     (MemoryError, "", "An array here is larger than the memory."),
+    (EOFError, "when reading a line", "The check types nothing: write the value into the program."),
     (FileNotFoundError, "", "A file that this line opens is not there."),
     (BaseException, "", "This line stopped the program."),
 ]  # fmt: skip

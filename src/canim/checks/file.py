@@ -8,22 +8,26 @@ import linecache
 import os
 import re
 import shutil
-import subprocess
-import sys
 import tempfile
 import warnings
-from dataclasses import asdict
+from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
 from typing import Any
-
-import matplotlib
 
 from canim import checks
 from canim.checks.crash import Crash, explain
+from canim.checks.guard import Guard, Limits, make
 from canim.checks.picture import png
-from canim.checks.report import Report, Result
+from canim.checks.remote import Gone, Peer, Remote
+from canim.checks.report import Report, Result, stops
+from canim.checks.run import judge
 from canim.checks.task import Task
+
+SUFFIXES = (".py", ".ipynb")
+# Of what lies beside a program: enough for pictures and a face, not for somebody's home.
+MOST_BESIDE = 50_000_000  # in bytes
+MOST_FILES_BESIDE = 500
 
 
 class UnusableFile(Exception):
@@ -35,8 +39,9 @@ def check_file(
     *,
     task: str | None = None,
     hint: int = 0,
-    limit: float = 60,
+    limits: Limits | None = None,
     figure: Path | None = None,
+    guard: Guard | None = None,
 ) -> Report:
     """Run the file in a fresh process without windows and return the report on it.
 
@@ -50,10 +55,12 @@ def check_file(
     hint : int
         1 to show the hints of the mistakes that were recognised, 2 to show also the line of
         the pseudocode that each belongs to.
-    limit : float
-        Time in seconds after which the program is ended.
+    limits : Limits, optional
+        The time and the memory that the program may take.
     figure : Path, optional
         Where to write a PNG picture of expected and got for the parts that differ.
+    guard : Guard, optional
+        What starts the process: one guard for many files is quicker.
 
     Raises
     ------
@@ -61,57 +68,98 @@ def check_file(
         If the file is not there, is not a task or cannot be read as Python, or the figure
         cannot be written.
     """
-    found = _task_of(path, [tree for tree, _ in _parsed(path)], task)
+    sources = _sources(path)
+    found = _task_of(path, _parsed(sources), task)
+    own = guard or make()
+    try:
+        report = _run(own, path, sources, found, limits or Limits())
+    finally:
+        if guard is None:
+            own.close()
+    if figure:
+        report = replace(report, notes=(*report.notes, _drawn(report, figure)))
     how_to_hint = (f"Type: {_command(path, task, 1)}", f"Type: {_command(path, task, 2)}")
-    with tempfile.TemporaryDirectory() as folder:
-        answer, drawn = Path(folder) / "report.json", Path(folder) / "figure.png"
+    return replace(report, show_hints=hint, how_to_hint=how_to_hint)
+
+
+def _run(
+    guard: Guard, path: Path, sources: list[tuple[str, str]], task: Task, limits: Limits
+) -> Report:
+    """Run the program, and judge its functions from here."""
+
+    def why(otherwise: str) -> str:
+        broken = guard.end()
+        return limits.sentence(broken) if broken else otherwise
+
+    with tempfile.TemporaryDirectory(prefix="canim-", ignore_cleanup_errors=True) as folder:
+        work = Path(folder).resolve() / "work"
+        copy_beside(path, sources, work)
+        order = {"task": task.id, "codes": sources, "file": path.name, "folder": str(work)}
+        peer = Peer(guard.start(limits), _refuse)
         try:
-            subprocess.run(
-                # -P: a json.py of the student's must not take the place of Python's.
-                [
-                    sys.executable,
-                    "-P",
-                    "-m",
-                    __name__,
-                    path.resolve(),
-                    found.id,
-                    answer,
-                    drawn if figure else "",
-                ],
-                cwd=path.resolve().parent,
-                env=os.environ | {"MPLBACKEND": "agg", "PYTHONIOENCODING": "utf-8"},
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                timeout=limit,
-                check=False,
-            )
-        except subprocess.TimeoutExpired:
-            reason = f"did not end within {limit:g} seconds. Is there a loop without an end?"
-            return _empty(found, reason)
-        if not answer.exists():
-            return _empty(found, "ended before its functions could be checked.")
-        told = json.loads(answer.read_text(encoding="utf-8"))
-        if figure:
-            told["notes"].append(_moved(drawn, figure))
-    return Report(
-        found,
-        tuple(Result(**result) for result in told["results"]),
-        notes=tuple(told["notes"]),
-        changing=tuple(told["changing"]),
-        show_hints=hint,
-        how_to_hint=how_to_hint,
-        stopped=told["stopped"] and Crash(**told["stopped"]),
-        answers=told["answers"],
-    )
+            ran = peer.ask(run=order)
+            stopped = ran["stopped"] and Crash(**ran["stopped"])
+            answers = {str(question): str(text) for question, text in ran["answers"].items()}
+            remote = Remote(task, peer, lambda: why("ends the program instead of returning."))
+            report = judge(task, remote)
+        except Gone:
+            return _empty(task, why("ended before its functions could be checked."))
+        # What a program that has changed numpy itself sends may be anything at all.
+        except Exception:
+            return _empty(task, "gives results that cannot be compared: it has changed numpy.")
+        finally:
+            guard.end()
+    if stopped and ran["missing"]:
+        # Where functions are broken, the report does not tell the stop that follows from it.
+        report = replace(report, notes=(f"The program {stops(stopped)}", *report.notes))
+    return replace(report, stopped=stopped, answers=answers)
 
 
-def _moved(drawn: Path, figure: Path) -> str:
-    """Put the picture, if there is one, where it is wanted; return a sentence on it."""
-    if not drawn.exists():
+def _refuse(question: dict[str, Any]) -> dict[str, Any]:
+    """Answer a question that no program of ours would ask."""
+    raise Gone
+
+
+def copy_beside(path: Path, sources: list[tuple[str, str]], target: Path) -> None:
+    """Copy the file, and what it may use of the files beside it, to a new folder.
+
+    Programs beside it come along where the program has their name in it; other files and
+    folders as long as they are few and small.
+    """
+    target.mkdir()
+    shutil.copy(path, target)
+    text = "\n".join(code for code, _ in sources)
+    room, count = MOST_BESIDE, 0
+    for entry in _beside(path, text):
+        try:
+            room -= entry.stat().st_size
+            count += 1
+            if room < 0 or count > MOST_FILES_BESIDE:
+                return
+            copied = target / entry.relative_to(path.parent)
+            copied.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(entry, copied)
+        except OSError:
+            continue  # the program will say that it misses this file, if it does
+
+
+def _beside(path: Path, text: str) -> Iterator[Path]:
+    """Yield the files that a program with this text may use, of every folder in order."""
+    for folder, folders, names in os.walk(path.parent):
+        folders[:] = sorted(name for name in folders if not name.startswith((".", "__")))
+        for name in sorted(names):
+            entry = Path(folder, name)
+            named = re.search(rf"\b{re.escape(entry.stem)}\b", text)
+            if entry.suffix not in SUFFIXES or (named and name != path.name):
+                yield entry
+
+
+def _drawn(report: Report, figure: Path) -> str:
+    """Draw what differs, if it can be drawn, into the file `figure`; return a sentence on it."""
+    if not report.drawings:
         return "There is no picture: no part that differs is a curve, an image or a chain."
     try:
-        shutil.copyfile(drawn, figure)
+        figure.write_bytes(png(report.drawings, titles=True))
     except OSError as error:
         raise UnusableFile(f"{figure} cannot be written: {error.strerror}.") from None
     return f"Expected and yours are drawn in {figure}."
@@ -129,17 +177,17 @@ def _empty(task: Task, reason: str) -> Report:
     return Report(task, results, notes=(f"The program {reason}",))
 
 
-def _parsed(path: Path) -> list[tuple[ast.Module, str]]:
-    """Return the program, or each cell of the notebook, as a tree and its name in messages."""
+def _parsed(sources: list[tuple[str, str]]) -> list[ast.Module]:
+    """Return the program, or each cell of the notebook, as a tree."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # Python gives them when the program is run
-        return [_parse(code, name) for code, name in _sources(path)]
+        return [_parse(code, name) for code, name in sources]
 
 
-def _parse(code: str, name: str) -> tuple[ast.Module, str]:
+def _parse(code: str, name: str) -> ast.Module:
     linecache.cache[name] = (len(code), None, code.splitlines(keepends=True), name)
     try:
-        return ast.parse(code, name), name
+        return ast.parse(code, name)
     except SyntaxError as error:
         crash = explain(error, lambda _: False)
         where = f"{name}, line {crash.line}:\n{crash.marked}"
@@ -149,7 +197,7 @@ def _parse(code: str, name: str) -> tuple[ast.Module, str]:
 
 
 def _sources(path: Path) -> list[tuple[str, str]]:
-    if path.suffix not in (".py", ".ipynb"):
+    if path.suffix not in SUFFIXES:
         raise UnusableFile(f"{path} is neither a .py nor an .ipynb file.")
     try:
         text = path.read_text(encoding="utf-8-sig")
@@ -198,53 +246,3 @@ def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
         if number in checks.TASKS:
             return checks.TASKS[str(number)]
     raise UnusableFile(f"{path} is not a task of the course: say which one with --task, as in 1.1.")
-
-
-def _run_here(path: Path, task: Task, figure: str) -> dict[str, Any]:
-    """Run the file in this process and return what the report needs, as JSON can hold it.
-
-    What differs is drawn into the file `figure`, unless that is "".
-    """
-    # A window would wait until somebody closes it.
-    vars(matplotlib)["use"] = lambda *args, **options: None
-    # The file's own call would report twice, and end the program where a part crashes.
-    checks.check = lambda *args, **functions: None
-    parsed = _parsed(path)
-    names = {name for _, name in parsed}
-    module = ModuleType("__main__")
-    if path.suffix == ".py":
-        module.__file__ = str(path)
-    sys.modules["__main__"] = module
-    sys.argv = [str(path)]
-    sys.path.insert(0, str(path.parent))
-    stopped = None
-    try:
-        for tree, name in parsed:
-            # The program must not inherit the __future__ import of this module.
-            exec(compile(tree, name, "exec", dont_inherit=True), module.__dict__)
-    except Exception as error:
-        stopped = asdict(explain(error, lambda file_name: file_name in names))
-    except SystemExit:
-        pass
-    report = checks.run(task, {name: vars(module).get(name) for name in task.names})
-    if figure and report.drawings:
-        Path(figure).write_bytes(png(report.drawings, titles=True))
-    answers = vars(module).get("answers")
-    return {
-        "results": [asdict(result) for result in report.results],
-        "notes": report.notes,
-        "changing": report.changing,
-        "stopped": stopped,
-        "answers": _as_text(answers) if isinstance(answers, dict) else {},
-    }
-
-
-def _as_text(answers: dict[Any, Any]) -> dict[str, str]:
-    return {str(question): str(text) for question, text in answers.items()}
-
-
-if __name__ == "__main__":
-    asked, number, answer, drawn = sys.argv[1:]
-    told = _run_here(Path(asked), checks.find(number), drawn)
-    Path(answer).write_text(json.dumps(told), encoding="utf-8")
-    os._exit(0)  # a thread that the program left behind would go on

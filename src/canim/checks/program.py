@@ -9,6 +9,7 @@ import linecache
 import sys
 import warnings
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from types import FrameType
@@ -17,9 +18,10 @@ from typing import Any
 import numpy as np
 
 from canim.checks.crash import Crash, explain
-from canim.checks.task import Function, Task, Unusable
+from canim.checks.task import Data, Function, Task, Unusable
 
 _OURS = str(Path(__file__).parents[1])
+MOST_OUTPUT = 10_000_000
 
 
 class Stopped(Exception):
@@ -46,6 +48,8 @@ class Program:
         self._canim_codes = {
             getattr(inspect.unwrap(f), "__code__", None) for f in task.canim_functions
         }
+        # What is said of a function or of data that is not there.
+        self.missing = "is missing: keep this name in your program."
         self.uses_canim: dict[str, None] = {}
         self.changes: dict[str, None] = {}
 
@@ -55,14 +59,22 @@ class Program:
                 return lambda *args: self._call(function, *args)
         for data in self._task.data:
             if data.name == name:
-                return self._value(name, data.accept)
+                return self.value(data)
         raise AttributeError(name)
 
-    def _value(self, name: str, accept: Callable[[Any], Any]) -> Any:
+    @property
+    def given(self) -> dict[str, Any]:
+        """The student's data, and functions without a reference."""
+        free = [f.name for f in self._task.functions if f.reference is None]
+        return {name: self._names.get(name) for name in [*(d.name for d in self._task.data), *free]}
+
+    def value(self, data: Data) -> Any:
+        """Return the student's data of that name."""
+        name = data.name
         if self._names.get(name) is None:
-            raise Stopped(name, f"{name} is missing: keep this name in your program.")
+            raise Stopped(name, f"{name} {self.missing}")
         try:
-            return accept(self._names[name])
+            return data.accept(self._names[name])
         except Unusable as problem:
             raise Stopped(name, f"{name} {problem}") from None
 
@@ -70,17 +82,17 @@ class Program:
         key = (function.name, *map(id, args))
         if key not in self._results:
             # The arguments are kept with the result: an id is only theirs while they live.
-            self._results[key] = (args, self._fresh_call(function, *args))
+            self._results[key] = (args, self.call(function, *args))
         result = self._results[key][1]
         if isinstance(result, Stopped):
             raise result
         return result
 
-    def _fresh_call(self, function: Function, *args: Any) -> Any:
+    def call(self, function: Function, *args: Any) -> Any:
+        """Return what the function returns, or where it stops."""
         call = self._names.get(function.name)
         if call is None:
-            sentence = f"{function.name} is missing: keep this name in your program."
-            return Stopped(function.name, sentence)
+            return Stopped(function.name, f"{function.name} {self.missing}")
         if not callable(call):
             return Stopped(function.name, f"{function.name} must be a function.")
         own = [a.copy() if isinstance(a, np.ndarray) else a for a in args]
@@ -93,7 +105,7 @@ class Program:
             # One of the student's functions was an argument: the fault is in that one.
             return stopped
         except Exception as error:
-            return Stopped(function.name, explain(error, _is_students(call)))
+            return Stopped(function.name, crash_of(error, _is_students(call)))
         except SystemExit:
             return Stopped(function.name, f"{function.name} ends the program instead of returning.")
         if any(not _same(a, b) for a, b in zip(args, own, strict=True)):
@@ -135,17 +147,52 @@ def _other_values(call: Callable[..., Any], function: Function, args: list[Any])
 
 
 def _same(a: Any, b: Any) -> bool:
-    return not isinstance(a, np.ndarray) or np.array_equal(a, b, equal_nan=a.dtype.kind == "f")
+    # By their bytes: numpy's functions may have been replaced by the program.
+    return not isinstance(a, np.ndarray) or (a.shape == b.shape and a.tobytes() == b.tobytes())
+
+
+class TooMuchOutput(Exception):
+    """The program prints more than anybody reads."""
+
+
+class _Nowhere(io.RawIOBase):
+    """Takes what is printed, and stops a program that prints without end."""
+
+    def __init__(self) -> None:
+        self._size = 0
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: Any) -> int:
+        self._size += len(data)
+        if self._size > MOST_OUTPUT:
+            self._size = 0
+            raise TooMuchOutput
+        return len(data)
+
+
+def nowhere() -> io.TextIOWrapper:
+    """Return a file for what nobody reads."""
+    return io.TextIOWrapper(io.BufferedWriter(_Nowhere()), encoding="utf-8")
 
 
 @contextlib.contextmanager
 def _quiet() -> Iterator[None]:
-    with (
-        warnings.catch_warnings(),
-        contextlib.redirect_stdout(io.StringIO()),
-    ):
+    with warnings.catch_warnings(), contextlib.redirect_stdout(nowhere()):
         warnings.simplefilter("ignore")
         yield
+
+
+def crash_of(error: BaseException, is_students: Callable[[str], bool]) -> Crash:
+    """Return where and why the student's program failed."""
+    crash = explain(error, is_students)
+    if isinstance(error, TooMuchOutput):
+        printed = (
+            f"More than {MOST_OUTPUT // 10**6} MB are printed. Is there a loop without an end?"
+        )
+        return replace(crash, sentence=printed)
+    return crash
 
 
 def _is_students(call: Any) -> Callable[[str], bool]:

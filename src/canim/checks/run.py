@@ -18,14 +18,16 @@ from canim.checks.task import Mistake, Part, Task
 Compared = list[tuple[tuple[Any, ...], str, np.ndarray, np.ndarray]]
 
 
+def run(task: Task, names: Mapping[str, Any], *, hint: int = 0) -> Report:
+    """Return the report on the functions and data in `names`."""
+    return judge(task, Program(task, names), hint=hint)
+
+
 # Differences of infinite results are nan, and their warnings would show our lines.
 @np.errstate(all="ignore")
-def run(task: Task, names: Mapping[str, Any], *, hint: int = 0) -> Report:
-    """Return the report on the functions and data in `names`, with hints up to step `hint`."""
-    student = Program(task, names)
-    own_data = {data.name: names.get(data.name) for data in task.data}
-    free = {f.name: names.get(f.name) for f in task.functions if f.reference is None}
-    given = own_data | free
+def judge(task: Task, student: Program, *, hint: int = 0) -> Report:
+    """Return the report on a student's functions and data."""
+    given = student.given
     reference = Program(
         task, given | {f.name: f.reference for f in task.functions if f.reference is not None}
     )

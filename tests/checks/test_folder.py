@@ -1,0 +1,243 @@
+"""A whole class: every file below a folder, in any order and by any number of workers."""
+
+import csv
+import json
+import re
+import shutil
+import subprocess
+import sys
+from types import SimpleNamespace
+
+import joblib
+import pytest
+from joblib.externals.loky import get_reusable_executor
+
+from canim import checks
+from canim.checks import folder
+from canim.checks.folder import check_folder
+from canim.checks.guard import Limits
+from canim.cli import main
+
+RIGHT = """
+import canim
+from canim.interpolation import hermite_basis
+answers = {1: "because", 2: "=1+1", 10: "é"}
+canim.check("1.1", hermite_basis=hermite_basis)
+"""
+WRONG = """
+import numpy as np
+def hermite_basis(t):
+    return np.array([2*t**3-3*t**2+1, -3*t**3+3*t**2, t**3-2*t**2+t, t**3-t**2])
+"""
+# Programs of one folder must not see what others write beside them.
+WRITES = (
+    WRONG
+    + """
+import pathlib
+seen = pathlib.Path("seen.txt")
+answers = {1: str(seen.exists()), 2: pathlib.Path("given.txt").read_text()}
+seen.write_text("here")
+"""
+)
+FILES = {
+    "ann/task_1_1.py": RIGHT,
+    "ann/notes.txt": "no program",
+    "ann/.hidden.py": "1/0",
+    "ben/broken.py": "x = (",
+    "ben/task_1_1 crashes.py": WRONG + "print(undefined)\n",
+    "ben/__pycache__/task_1_1.py": "1/0",
+    "cem/given.txt": "x",
+    "cem/helper.py": "factor = 2",
+    "cem/task_1_1.py": WRITES,
+    "cem/task_1_1_again.py": WRITES,
+    "cem/task_1_1_with_helper.py": "import helper\n" + WRONG,
+    "dora/task_1_1.ipynb": json.dumps({"cells": [{"cell_type": "code", "source": [RIGHT]}]}),
+    "exits/task_1_1.py": "import os; os._exit(0)",
+    "latin/task_1_1.py": "\ufffd",
+}
+LIMITS = Limits(30, 500)
+
+
+@pytest.fixture
+def handed_in(tmp_path):
+    place = tmp_path / "class"
+    for name, text in FILES.items():
+        (place / name).parent.mkdir(parents=True, exist_ok=True)
+        encoding = "utf-16" if text == "\ufffd" else "utf-8"
+        (place / name).write_text(text, encoding=encoding)
+    return place
+
+
+@pytest.fixture
+def alone(monkeypatch):
+    """A computer without joblib."""
+    monkeypatch.setitem(sys.modules, "joblib", None)
+
+
+def by_file(rows):
+    found = {}
+    for row in rows:
+        found.setdefault(row["file"], []).append(row)
+    return found
+
+
+def test_every_file_is_checked_whatever_the_others_do(handed_in, alone):
+    seen = []
+    before = sorted(handed_in.rglob("*"))
+    rows = check_folder(handed_in, limits=LIMITS, progress=lambda *both: seen.append(both))
+    assert sorted(handed_in.rglob("*")) == before  # nothing is written beside the programs
+    files = by_file(rows)
+    assert seen == [(done, len(files)) for done in range(len(files) + 1)]
+    told = {
+        name: (parts[0]["passed"], parts[0]["message"] or parts[0]["notes"])
+        for name, parts in files.items()
+    }
+    assert list(told) == sorted(told)
+    assert told["ann/task_1_1.py"] == (True, "hermite_basis uses canim's function.")
+    assert told["dora/task_1_1.ipynb"][0]
+    assert told["ben/broken.py"][1].startswith("line 1: x = ( A bracket is opened")
+    assert told["cem/helper.py"][1].startswith("is not a task of the course")
+    assert "is not a text in UTF-8" in told["latin/task_1_1.py"][1]
+    assert told["exits/task_1_1.py"][1] == "not checked"
+    assert "The name undefined is not known here" in told["ben/task_1_1 crashes.py"][1]
+    assert len(told) == 10
+    hints = [row["hint"] for row in files["cem/task_1_1_with_helper.py"]]
+    assert [bool(hint) for hint in hints] == [False, True, False, False]
+    for name in ("cem/task_1_1.py", "cem/task_1_1_again.py"):
+        assert files[name][0]["answers"] == {"1": "False", "2": "x"}
+
+
+def test_the_result_is_the_same_in_any_order_and_for_any_number_of_workers(
+    handed_in, alone, monkeypatch
+):
+    one_by_one = check_folder(handed_in, limits=LIMITS)
+    monkeypatch.setattr(folder, "_checked", _backwards(folder._checked))
+    assert check_folder(handed_in, limits=LIMITS) == one_by_one
+    monkeypatch.undo()
+    try:
+        for jobs in (1, 3):
+            assert check_folder(handed_in, limits=LIMITS, jobs=jobs) == one_by_one
+    finally:
+        get_reusable_executor().shutdown(wait=True)
+
+
+def _backwards(checked):
+    return lambda given, *others: checked(given[::-1], *others)
+
+
+def test_a_fault_of_ours_is_a_row(handed_in, alone, monkeypatch):
+    def fail(*args, **options):
+        raise RuntimeError("no room")
+
+    monkeypatch.setattr(folder, "check_file", fail)
+    rows = check_folder(handed_in)
+    assert rows[0]["message"] == "could not be checked: RuntimeError: no room"
+    assert not any(row["passed"] for row in rows)
+
+
+def test_threads_of_a_worker_take_turns(handed_in):
+    with joblib.parallel_config(backend="threading", n_jobs=2):
+        rows = check_folder(handed_in / "cem", limits=LIMITS)
+    folder._close_guard()
+    assert len(rows) == 13
+
+
+def test_the_table_is_for_spreadsheets(handed_in, tmp_path, monkeypatch, capsys, alone):
+    report = tmp_path / "results.csv"
+    assert main(["check", str(handed_in / "ann"), "--report", str(report)]) == 0
+    said = capsys.readouterr()
+    assert "The files are checked one after another." in said.err
+    assert "task_1_1.py: Task 1.1, 4 of 4 parts done" in said.out
+    assert "All parts are done in 1 of 1 files." in said.out
+    assert report.read_bytes().startswith(b"\xef\xbb\xbffile,task,part,result")
+    with report.open(encoding="utf-8-sig", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [row["part"] for row in rows] == [part.name for part in checks.TASKS["1.1"].parts]
+    assert rows[0]["passed"] == "yes"
+    assert rows[0]["answer 1"] == "because"
+    assert rows[0]["answer 2"] == "'=1+1"  # a formula would be carried out
+    assert list(rows[0])[-1] == "answer 10"
+    assert rows[0]["answer 10"] == "é"
+
+
+def test_results_are_written_as_json(handed_in, tmp_path, capsys):
+    report = tmp_path / "results.json"
+    command = ["check", str(handed_in / "ben"), "--report", str(report), "--jobs", "1"]
+    assert main(command) == 1
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert "broken.py: line 1: x = (" in said.out
+    assert "All parts are done in 0 of 2 files." in said.out
+    rows = json.loads(report.read_text(encoding="utf-8"))
+    assert rows[0]["file"] == "broken.py"
+    assert rows[1]["passed"] is False
+
+
+def test_somebody_who_looks_on_sees_how_far_it_is(handed_in, alone, monkeypatch, capsys):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
+    main(["check", str(handed_in / "ann")])
+    bars = re.findall(r"\r\[([#.]{30})\] (\d) of 1 files", capsys.readouterr().err)
+    assert bars == [("." * 30, "0"), ("#" * 30, "1")]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["empty"], "empty holds no .py and no .ipynb file."),
+        (["ann", "--jobs", "1", "--report", "no/where.csv"], "cannot be written: No such file"),
+    ],
+)
+def test_what_cannot_be_done_is_told(handed_in, arguments, words, monkeypatch, capsys):
+    monkeypatch.chdir(handed_in)
+    (handed_in / "empty").mkdir()
+    assert main(["check", *arguments]) == 2
+    assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("option", "value"),
+    [("--report", "x.txt"), ("--report", "csv"), ("--jobs", "0"), ("--jobs", "-2")],
+)
+def test_options_of_a_folder_are_looked_at_before_anything_runs(option, value, capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["check", ".", option, value])
+    assert ended.value.code == 2
+    assert option in capsys.readouterr().err
+
+
+def test_many_and_large_files_beside_a_program_stay_where_they_are(tmp_path, monkeypatch):
+    from canim.checks import file
+
+    monkeypatch.setattr(file, "MOST_BESIDE", 10)
+    monkeypatch.setattr(file, "MOST_FILES_BESIDE", 3)
+    for name in ("a/1.txt", "a/2.txt", "b/3.txt"):
+        (tmp_path / "from" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "from" / name).write_text("1234")
+    (tmp_path / "from" / "b.txt").write_text("")
+
+    def copy(source, target):
+        if source.name == "b.txt":
+            raise PermissionError
+        shutil.copyfile(source, target / source.name if target.is_dir() else target)
+
+    monkeypatch.setattr(file, "shutil", SimpleNamespace(copy=copy))
+    program = tmp_path / "from" / "x.py"
+    program.write_text("")
+    file.copy_beside(program, [("", "x")], tmp_path / "to")
+    copied = {p.relative_to(tmp_path / "to").as_posix() for p in (tmp_path / "to").rglob("*.*")}
+    assert copied == {"x.py", "a/1.txt", "a/2.txt"}
+
+
+def test_the_page_for_teachers_shows_how_to_use_a_cluster(root, handed_in, tmp_path):
+    text = (root / "docs/course/class.md").read_text(encoding="utf-8")
+    (example,) = (code for code in re.findall(r"```python\n(.*?)```", text, re.S) if "dask" in code)
+    assert "LocalCluster(n_workers=2" in example
+    shutil.copytree(handed_in, tmp_path / "task_1_2")
+    program = tmp_path / "example.py"
+    program.write_text(example, encoding="utf-8")
+    ran = subprocess.run(
+        [sys.executable, program], cwd=tmp_path, capture_output=True, text=True, timeout=120
+    )
+    assert ran.returncode == 0, ran.stderr
+    rows = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
+    assert rows == check_folder(handed_in, jobs=1)
