@@ -35,6 +35,8 @@ def test_second_build_gives_the_same_bytes(site, tmp_path):
     shutil.rmtree(copy / "docs/gallery", ignore_errors=True)
     (copy / "docs/node_modules").symlink_to(ROOT / "docs/node_modules")
     shutil.copytree(ROOT / "gallery", copy / "gallery", ignore=generated)
+    solutions = "tests/gallery/solutions"
+    shutil.copytree(ROOT / solutions, copy / solutions, ignore=generated)
     (copy / "src/canim/data/face").mkdir(parents=True)
     read = ("pyproject.toml", "src/canim/__init__.py", "src/canim/data/face/SOURCES.md")
     for name in read:
