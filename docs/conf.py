@@ -37,6 +37,7 @@ extensions = [
     "task_cards",
     "known_mistakes",
     "words",
+    "architecture",
     "downloads",
     "page_head",
     "styles",

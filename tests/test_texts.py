@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-TEXTS = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("docs/[cs]*/**/*.md")]
+TEXTS = [*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), *ROOT.glob("docs/[cms]*/**/*.md")]
 BLOCK = re.compile(r"^```(?:\{code-block\} )?(python|pycon)\n(.*?)^```", re.M | re.S)
 
 
@@ -23,8 +23,14 @@ def test_pins_name_no_address():
     assert all("==" in line for line in pins.splitlines() if not line.startswith((" ", "#")))
 
 
-def test_npm_lock_names_no_address():
-    assert '"resolved"' not in (ROOT / "docs/package-lock.json").read_text(encoding="utf-8")
+@pytest.mark.parametrize("folder", ["audit", "docs"])
+def test_npm_lock_names_no_address(folder):
+    assert '"resolved"' not in (ROOT / folder / "package-lock.json").read_text(encoding="utf-8")
+
+
+def test_words_are_sorted_and_none_is_there_twice():
+    words = (ROOT / "docs/words.txt").read_text(encoding="utf-8").splitlines()
+    assert words == sorted({word.lower(): word for word in words}.values(), key=str.lower)
 
 
 def test_citation_has_the_version_of_the_package():

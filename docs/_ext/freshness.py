@@ -49,7 +49,7 @@ def _remove_old_pages(app, exception):
     """Remove what an earlier build made of a page that is gone: Sphinx leaves it there."""
     if exception or app.builder.name != "html":
         return
-    kept = {*app.env.found_docs, "genindex", "search"}
+    kept = {*app.env.found_docs, "404", "genindex", "search"}
     for page in app.outdir.rglob("*.html"):
         if page.relative_to(app.outdir).with_suffix("").as_posix() not in kept:
             page.unlink()

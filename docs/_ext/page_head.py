@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 from html import escape
+from pathlib import Path
+from urllib.parse import quote
 
 from docutils import nodes
 from downloads import RELEASE
@@ -15,6 +17,13 @@ LONGEST = 160
 GENERATED = {
     "genindex": "All functions and classes of canim, from A to Z.",
     "search": "Search the pages of the canim course.",
+    "404": "There is no page at this address. Here is the way back to the canim course.",
+}
+CARD = {
+    "og:image:width": "1200",
+    "og:image:height": "900",
+    "og:image:alt": "A smooth curve, a portrait that turns into another, an arm, and two faces.",
+    "twitter:card": "summary_large_image",
 }
 LANDMARKS = {
     '<aside class="sidebar-drawer">': '<aside class="sidebar-drawer" aria-label="Site navigation">',
@@ -33,10 +42,12 @@ def _describe(app, pagename, templatename, context, doctree):
     if SITE:
         tags |= {
             "og:type": "website",
+            "og:site_name": app.config.html_title,
             "og:title": Markup(context.get("title", "Index")).striptags(),
             "og:description": text,
             "og:url": f"{SITE}/{pagename}.html",
             "og:image": f"{SITE}/_static/canim.png",
+            **CARD,
         }
     context["metatags"] = context.get("metatags", "") + "".join(
         f'<meta {"property" if ":" in name else "name"}="{name}" content="{escape(value)}">\n'
@@ -83,6 +94,13 @@ def _map(app, exception):
     )  # fmt: skip
 
 
+def _missing(app):
+    """Write 404.html. A server shows it at any address, so it has no relative ones in it."""
+    icon = (Path(app.srcdir) / app.config.html_favicon).read_text(encoding="utf-8")
+    address = "data:image/svg+xml," + quote(" ".join(icon.split()))
+    yield "404", {"title": "No page here", "icon": address, "site": SITE}, "404.html"
+
+
 def _set_address(app, config):
     config.html_baseurl = RELEASE.site
 
@@ -91,5 +109,6 @@ def setup(app):
     app.connect("config-inited", _set_address)
     app.connect("builder-inited", _label)
     app.connect("html-page-context", _describe)
+    app.connect("html-collect-pages", _missing)
     app.connect("build-finished", _map)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

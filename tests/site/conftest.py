@@ -34,6 +34,10 @@ def pytest_generate_tests(metafunc):
         metafunc.parametrize("page", pages)
     if "task_page" in metafunc.fixturenames:
         metafunc.parametrize("task_page", [page for page in pages if "/task_" in page])
+    if "formula_page" in metafunc.fixturenames:
+        sources = {page: (site / page).read_text(encoding="utf-8") for page in pages}
+        with_one = [page for page, text in sources.items() if 'class="formula-body' in text]
+        metafunc.parametrize("formula_page", with_one)
 
 
 @pytest.fixture(scope="session")

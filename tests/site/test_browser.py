@@ -2,10 +2,9 @@
 
 import gzip
 import os
+from itertools import product
 from pathlib import Path
 from urllib.parse import urlsplit
-
-import pytest
 
 WIDTHS = (320, 768, 1280)
 MOST_KB = 600
@@ -14,47 +13,45 @@ EAGER = """() => Promise.all([...document.images].map(i => {
 WIDER = "() => document.scrollingElement.scrollWidth - document.scrollingElement.clientWidth"
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
-def test_page_is_sound(visit, address, violations, page, theme):
-    opened = visit(page, color_scheme=theme)
+def test_page_is_sound(visit, address, site, violations, page):
+    """One visit a page: what costs time is to load and to lay it out."""
+    opened = visit(page, color_scheme="light")
     wrong = []
-    for width in WIDTHS:
+    for theme, width in product(("light", "dark"), WIDTHS):
+        opened.emulate_media(color_scheme=theme)
         opened.set_viewport_size({"width": width, "height": 900})
         opened.evaluate(EAGER)
         if opened.evaluate(WIDER) > 0:
-            wrong.append(f"{width} px: the page scrolls sideways")
-        if width != 768:  # the theme has the same parts as on a phone
-            wrong += [f"{width} px: {found}" for found in violations(opened)]
+            wrong.append(f"{theme}, {width} px: the page scrolls sideways")
+        wrong += [f"{theme}, {width} px: {found}" for found in violations(opened)]
+    opened.wait_for_load_state("networkidle")
     host = urlsplit(address).netloc
     wrong += [f"asked: {url}" for url in opened.asked if urlsplit(url).netloc not in ("", host)]
     wrong += [f"failed: {url}" for url in opened.failed]
     wrong += [f"console: {text}" for text in opened.said]
+    if (weight := weigh(site, address, opened.asked)) > MOST_KB * 1000:
+        wrong.append(f"{weight} bytes are more than {MOST_KB} KB")
     assert wrong == []
 
 
-def test_weight(visit, address, site, page):
-    opened = visit(page)
-    opened.evaluate(EAGER)
-    opened.wait_for_load_state("networkidle")
+def weigh(site, address, asked):
+    """Return the bytes that were sent, texts compressed as a server does it."""
     total = 0
-    for url in set(opened.asked):
+    for url in set(asked):
         path = site / urlsplit(url.removeprefix(f"{address}/")).path
         data = path.read_bytes()
         is_text = path.suffix in {".html", ".css", ".js", ".svg"}
         total += len(gzip.compress(data)) if is_text else len(data)
-    assert total <= MOST_KB * 1000
+    return total
 
 
-def test_formulas_fit_a_phone(visit, task_page):
-    opened = visit(task_page, viewport={"width": 320, "height": 640})
+def test_formulas_fit_a_phone(visit, formula_page):
+    """They are no wider than the page, and their numbers stand below them."""
+    opened = visit(formula_page, viewport={"width": 320, "height": 640})
     wide = opened.locator(".formula-body").evaluate_all(
         "all => all.filter(f => f.scrollWidth > f.clientWidth + 1).map(f => f.textContent)"
     )
     assert wide == []
-
-
-def test_numbers_stand_below_formulas_on_a_phone(visit, page):
-    opened = visit(page, viewport={"width": 320, "height": 640})
     apart = opened.locator(".formula:has(.eqno)").evaluate_all(
         """all => all.map(f => f.querySelector(".eqno").getBoundingClientRect().top
                             - f.querySelector(".formula-body").getBoundingClientRect().bottom)"""
@@ -62,21 +59,51 @@ def test_numbers_stand_below_formulas_on_a_phone(visit, page):
     assert all(distance >= 0 for distance in apart)
 
 
-def test_focus_is_seen(visit, task_page):
+FOCUSED = """() => { const e = document.activeElement, s = getComputedStyle(e);
+  return {what: e.matches("summary") ? "fold" : e.matches(".task-card a") ? "card"
+              : e.matches("pre") ? "code" : e.matches(".next-page") ? "next" : e.tagName,
+          text: e.outerHTML.slice(0, 80), inside: !!e.closest("article, .related-pages"),
+          hidden: s.outlineStyle === "none" || s.outlineWidth === "0px"} }"""
+
+
+def test_keyboard_walks_through_the_page(visit, task_page):
+    """From the top, past the navigation, in order to the link to what comes next."""
     opened = visit(task_page)
-    seen = []
-    for _ in range(25):
+    opened.keyboard.press("Tab")
+    assert "#furo-main-content" in opened.evaluate(FOCUSED)["text"]
+    opened.keyboard.press("Enter")
+    stops = []
+    while not stops or stops[-1]["what"] != "next":
         opened.keyboard.press("Tab")
-        seen.append(
-            opened.evaluate(
-                """() => { const e = document.activeElement, s = getComputedStyle(e);
-                     return [e.outerHTML.slice(0, 80), s.outlineStyle, s.outlineWidth] }"""
-            )
-        )
-    assert len({element for element, *_ in seen}) > 15
+        stops.append(opened.evaluate(FOCUSED))
+        assert len(stops) < 150, "the keyboard does not get on"
+        if stops[-1]["what"] == "fold":
+            opened.keyboard.press("Enter")
+            assert opened.evaluate("() => document.activeElement.parentElement.open")
+    assert [stop["text"] for stop in stops if not stop["inside"]] == []
+    assert [stop["text"] for stop in stops if stop["hidden"]] == []
+    first = {what: [s["what"] for s in stops].index(what) for what in ("card", "fold", "code")}
+    assert first["card"] < first["fold"] < first["code"]
+    opened.keyboard.press("Enter")
+    opened.wait_for_load_state("load")
+    assert not opened.url.endswith(task_page)
+
+
+def test_focus_is_seen(visit, page):
+    opened = visit(page)
+    seen = []
+    for _ in range(12):
+        opened.keyboard.press("Tab")
+        seen.append(opened.evaluate(FOCUSED))
     # The search box shows its focus by its ground and cursor.
-    hidden = [e for e, style, width in seen if style == "none" or width == "0px"]
-    assert [e for e in hidden if "sidebar-search" not in e and "<body" not in e] == []
+    hidden = [stop["text"] for stop in seen if stop["hidden"]]
+    assert [text for text in hidden if "sidebar-search" not in text and "<body" not in text] == []
+
+
+def test_the_page_for_wrong_addresses_is_whole_in_itself(visit):
+    opened = visit("404.html")
+    assert len(opened.asked) == 1
+    assert opened.locator("h1").is_visible()
 
 
 def test_without_javascript(visit, task_page):

@@ -34,12 +34,9 @@ def test_second_build_gives_the_same_bytes(site, tmp_path):
     shutil.copytree(ROOT / "docs", copy / "docs", ignore=generated)
     shutil.rmtree(copy / "docs/gallery", ignore_errors=True)
     (copy / "docs/node_modules").symlink_to(ROOT / "docs/node_modules")
-    shutil.copytree(ROOT / "gallery", copy / "gallery", ignore=generated)
-    solutions = "tests/gallery/solutions"
-    shutil.copytree(ROOT / solutions, copy / solutions, ignore=generated)
-    (copy / "src/canim/data/face").mkdir(parents=True)
-    read = ("pyproject.toml", "src/canim/__init__.py", "src/canim/data/face/SOURCES.md")
-    for name in read:
+    for folder in ("gallery", "src", "tests/gallery/solutions"):
+        shutil.copytree(ROOT / folder, copy / folder, ignore=generated)
+    for name in ("pyproject.toml", "CONTRIBUTING.md", "CHANGELOG.md"):
         shutil.copyfile(ROOT / name, copy / name)
     again = tmp_path / "html"
     built = sphinx(copy / "docs", again, "-W", "-n", "-d", tmp_path / "doctrees")
@@ -129,14 +126,21 @@ def test_address_of_the_site_is_told(tmp_path, monkeypatch):
 
     monkeypatch.setattr(page_head, "SITE", "https://example.org/course")
     index, search = {}, {"title": "Find &amp; <em>search</em>"}
-    page_head._describe(None, "genindex", "genindex.html", index, None)
-    page_head._describe(None, "search", "search.html", search, None)
+    course = SimpleNamespace(
+        config=SimpleNamespace(html_title="Course", html_favicon="_static/favicon.svg"),
+        srcdir=ROOT / "docs",
+    )
+    page_head._describe(course, "genindex", "genindex.html", index, None)
+    page_head._describe(course, "search", "search.html", search, None)
     assert 'content="https://example.org/course/genindex.html"' in index["metatags"]
+    assert 'content="https://example.org/course/_static/canim.png"' in index["metatags"]
     assert '<meta property="og:title" content="Find &amp; search">' in search["metatags"]
     app = SimpleNamespace(
         outdir=tmp_path, env=SimpleNamespace(found_docs={"index", "gallery/index"})
     )
     page_head._map(app, None)
+    ((_, missing, _),) = page_head._missing(course)
+    assert missing["site"] == "https://example.org/course"
     assert (tmp_path / "sitemap.xml").read_text(encoding="utf-8").count("<loc>https://") == 2
 
 

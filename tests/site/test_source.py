@@ -28,6 +28,16 @@ def test_headings(documents, page):
     assert all(b <= a + 1 for a, b in pairwise(levels))
 
 
+def test_every_public_name_is_in_the_api(documents):
+    import canim
+
+    ids = {name for page in documents if page.startswith("api/") for name in documents[page].ids}
+    parts = [getattr(canim, name) for name in canim.__all__ if name != "check"]
+    names = {f"{part.__name__}.{name}" for part in parts for name in part.__all__}
+    names = {name.replace("canim.checks.check", "canim.check") for name in names}
+    assert names - ids == set()
+
+
 def test_ids_are_unique(documents, page):
     ids = documents[page].ids
     assert sorted(ids) == sorted(set(ids))

@@ -181,6 +181,7 @@ def test_bytes_are_within_one_level_and_every_pixel_is_filled(seed, height, widt
 
 
 @example(np.zeros((3, 2)), np.array([(1, 5e-324), (0, 1), (0, 0)]))
+@example(np.array([(2.0, 0), (0, 0), (0, 0)]), np.array([(1.1e-308, 0), (0, 1), (0, 0)]))
 @given(
     arrays(float, (3, 2), elements=st.floats(-0.5, 9.4)),
     arrays(float, (3, 2), elements=st.floats(-0.5, 9.4)),

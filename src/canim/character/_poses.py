@@ -90,7 +90,7 @@ class Chain(ABC):
     def least_turns(self, pose: Pose, way: Floats, damping: Floats) -> Floats:
         r"""Return the damped least squares :math:`J^T (J J^T + \lambda^2 I)^{-1} e`.
 
-        The ways e are (G, d), the dampings :math:`\lambda^2` are (G,), the turns (G, n).
+        The ways e are (G, d), the damping factors :math:`\lambda^2` are (G,), the turns (G, n).
         """
 
     @abstractmethod

@@ -265,7 +265,7 @@ def affine_maps(source: Floats, target: Floats, triangles: Integers) -> Floats:
     (ax, ay), (bx, by) = edges[:, 0].T, edges[:, 1].T
     adjugate = np.array([[by, -ay], [-bx, ax]]).transpose(2, 0, 1)
     maps = np.zeros((len(triangles), 3, 3))
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         linear = (adjugate @ moved_edges / (ax * by - ay * bx)[:, None, None]).transpose(0, 2, 1)
         maps[:, :2, :2] = linear
         maps[:, :2, 2] = moved - np.einsum("fij,fj->fi", linear, origin)
