@@ -94,7 +94,7 @@ for i, place in enumerate([(0.12, 0.35), (0.36, 0.5), (0.64, 0.5), (0.88, 0.65)]
 # No weight is negative, and together they are one whole. That is why a Bézier curve never
 # leaves the space between its control points: put a rubber band around them, and the curve
 # stays inside. More in :cite:t:`ShirleyMarschner2009`, chapter 15, and
-# :cite:t:`Farin2002`, chapters 4 and 5.
+# :cite:t:`Farin2002`, chapters 3 and 4.
 
 # %%
 # Pseudocode

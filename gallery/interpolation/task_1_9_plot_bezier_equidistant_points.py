@@ -106,7 +106,7 @@ ax.plot(*samples.T, "o-", color="C1")
 #
 # The **goals** are the distances at which you want your points: from 0 to the length, in
 # equal steps. Both ends belong to them, so 18 points have 17 steps between them. More in
-# :cite:t:`ShirleyMarschner2009`, chapter 16.
+# :cite:t:`ShirleyMarschner2009`, chapter 17.
 
 # %%
 # Pseudocode

@@ -28,7 +28,7 @@ def test_what_this_page_shows_is_used():
     used = architecture.without_detours(architecture.graph())
     assert used["cli"] == {"checks"}
     assert used["data"] == {"character"}
-    assert used["checks"] == BLOCKS
+    assert used["checks"] >= BLOCKS
 
 
 @pytest.mark.parametrize(
