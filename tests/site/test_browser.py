@@ -59,9 +59,11 @@ def test_formulas_fit_a_phone(visit, formula_page):
     assert all(distance >= 0 for distance in apart)
 
 
-FOCUSED = """() => { const e = document.activeElement, s = getComputedStyle(e);
-  return {what: e.matches("summary") ? "fold" : e.matches(".task-card a") ? "card"
-              : e.matches("pre") ? "code" : e.matches(".next-page") ? "next" : e.tagName,
+FOCUSED = """() => { const e = document.activeElement;
+  const s = getComputedStyle(e.closest(".cm-editor") ?? e);
+  const kinds = {fold: "summary", card: ".task-card a", code: "pre", editor: ".cm-content",
+                 next: ".next-page"};
+  return {what: Object.keys(kinds).find(kind => e.matches(kinds[kind])) ?? e.tagName,
           text: e.outerHTML.slice(0, 80), inside: !!e.closest("article, .related-pages"),
           hidden: s.outlineStyle === "none" || s.outlineWidth === "0px"} }"""
 
@@ -77,6 +79,8 @@ def test_keyboard_walks_through_the_page(visit, task_page):
         opened.keyboard.press("Tab")
         stops.append(opened.evaluate(FOCUSED))
         assert len(stops) < 150, "the keyboard does not get on"
+        if stops[-1]["what"] == "editor":
+            opened.keyboard.press("Escape")  # the Tab key belongs to the program; the page says it
         if stops[-1]["what"] == "fold":
             opened.keyboard.press("Enter")
             assert opened.evaluate("() => document.activeElement.parentElement.open")
