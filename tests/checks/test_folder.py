@@ -125,6 +125,10 @@ def _backwards(checked):
     return lambda given, *others: checked(given[::-1], *others)
 
 
+def test_a_folder_without_programs_has_no_rows(tmp_path, alone):
+    assert check_folder(tmp_path) == []
+
+
 def test_a_fault_of_ours_is_a_row(handed_in, alone, monkeypatch):
     def fail(*args, **options):
         raise RuntimeError("no room")

@@ -61,6 +61,19 @@ def test_the_family_is_found_by_parents_and_by_groups(monkeypatch):
 
 
 @needs_posix
+def test_a_child_born_while_its_parent_is_stopped_is_ended_too(monkeypatch):
+    found = iter([{1}, {1}, {1, 2}, {1, 2}, set()])
+    sent = []
+    monkeypatch.setattr(posix, "_family", lambda groups: set(next(found)))
+    monkeypatch.setattr(
+        posix, "_signal", lambda processes, number: sent.append((processes, number))
+    )
+    posix._end_family(set())
+    stop, kill = posix.signal.SIGSTOP, posix.signal.SIGKILL
+    assert sent == [({1}, stop), ({1}, kill), ({1, 2}, stop), ({1, 2}, kill)]
+
+
+@needs_posix
 def test_a_guard_that_is_closed_ends_its_program():
     kept = guard.make()
     pipe = kept.start(guard.Limits())

@@ -214,14 +214,16 @@ def _family(groups: set[int]) -> set[int]:
 
 def _end_family(groups: set[int]) -> None:
     """End every process that came from this one; stopped first, none can start another."""
-    stopped: set[int] = set()
-    while new := _family(groups) - stopped:
-        _signal(new, signal.SIGSTOP)
-        stopped |= new
-    _signal(stopped, signal.SIGKILL)
-    with suppress(ChildProcessError):
-        while True:
-            os.wait()
+    # Again, until nobody is left: a child may be born while its parent is being stopped.
+    while family := _family(groups):
+        stopped: set[int] = set()
+        while new := family - stopped:
+            _signal(new, signal.SIGSTOP)
+            stopped |= new
+            family = _family(groups)
+        _signal(stopped, signal.SIGKILL)
+        time.sleep(0.002)
+        _ended()
 
 
 def _signal(processes: set[int], number: int) -> None:
