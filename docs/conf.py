@@ -39,11 +39,15 @@ extensions = [
     "words",
     "architecture",
     "downloads",
+    "take_away",
     "page_head",
     "styles",
 ]
 
 exclude_patterns = ["_build", "node_modules", "gallery/**/*.ipynb", "gallery/**/images"]
+# A block whose page is index.md does without the one that sphinx-gallery makes of its header.
+pages = Path(__file__).parents[1].glob("gallery/*/index.md")
+exclude_patterns += [f"gallery/{page.parent.name}/index.rst" for page in pages]
 nitpicky = True
 nitpick_ignore = []
 
@@ -99,6 +103,7 @@ sphinx_gallery_conf = {
     "filename_pattern": r"[\\/]task_",
     "subsection_order": [f"../gallery/{block}" for block in canim.checks.BLOCKS],
     "within_subsection_order": "task_page.ByNumber",
+    "copyfile_regex": r"index\.md$",
     "parallel": 2,
     "reset_modules": ("matplotlib", "pictures.reset"),
     "image_scrapers": ("pictures.scrape",),

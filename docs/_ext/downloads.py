@@ -50,7 +50,7 @@ def _say_how_to_install(app, config):
 
 
 class Start(SphinxDirective):
-    """`.. start::` puts buttons: the first task, all starters, the wheel."""
+    """`.. start::` puts buttons: the first task, all starters."""
 
     def run(self):
         up = "../" * self.env.docname.count("/")
@@ -58,7 +58,6 @@ class Start(SphinxDirective):
         buttons = {
             f"Start with Task {first.id}, the warm-up": f"{first.page}.html",
             "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
-            "The package canim <span>(.whl)</span>": f"wheels/{served_wheel().name}",
         }
         links = "".join(
             f'<a href="{up}{escape(address)}" class="button">{text}</a>'
@@ -102,11 +101,16 @@ def _hand_out(app, exception):
         shutil.copyfile(page.path, (app.outdir / page.address).with_suffix(".py"))
     with zipfile.ZipFile(starters / "canim-starters.zip", "w") as together:
         for path in sorted(starters.glob("task_*")):
-            member = zipfile.ZipInfo(f"canim-starters/{path.name}", OLDEST_ZIP_TIME)
-            member.compress_type = zipfile.ZIP_DEFLATED
-            member.external_attr = 0o644 << 16
-            together.writestr(member, path.read_bytes())
+            put_into(together, f"canim-starters/{path.name}", path.read_bytes())
     shutil.copyfile(served_wheel(), _emptied(app.outdir / "wheels") / served_wheel().name)
+
+
+def put_into(archive, name, data):
+    """Add a file to a zip that is to have the same bytes every time."""
+    member = zipfile.ZipInfo(name, OLDEST_ZIP_TIME)
+    member.compress_type = zipfile.ZIP_DEFLATED
+    member.external_attr = 0o644 << 16
+    archive.writestr(member, data)
 
 
 def _emptied(folder):

@@ -9,6 +9,8 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
+from take_away import PRINTED
+
 import canim
 
 EXT = Path(__file__).parent
@@ -49,7 +51,7 @@ def _remove_old_pages(app, exception):
     """Remove what an earlier build made of a page that is gone: Sphinx leaves it there."""
     if exception or app.builder.name != "html":
         return
-    kept = {*app.env.found_docs, "404", "genindex", "search"}
+    kept = {*app.env.found_docs, *PRINTED, "404", "genindex", "search"}
     for page in app.outdir.rglob("*.html"):
         if page.relative_to(app.outdir).with_suffix("").as_posix() not in kept:
             page.unlink()

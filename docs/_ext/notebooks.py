@@ -1,8 +1,9 @@
 """Figures of executed pages look like those of the gallery, and have a text in words.
 
 A page names the kernel `page` (in `jupyter/kernels`), which draws them as large and as sharp.
-In a cell that draws, `# Picture: what is to be seen` stands above the figure. The code of a
-cell with the tag `fold` is folded.
+In a cell that draws, `# Picture: what is to be seen` stands above the figure. A cell that ends
+with an animation shows its film, and has `# Film: what is to be seen`. The code of a cell with
+the tag `fold` is folded, that of one with the tag `only-result` is not on the page.
 """
 
 from __future__ import annotations
@@ -19,6 +20,9 @@ from task_page import clean, fold
 
 logger = logging.getLogger(__name__)
 
+EXT = Path(__file__).parent
+FILMS = "films"
+
 
 def _arrange(app, doctree):
     for cell in list(doctree.findall(_is_cell)):
@@ -30,15 +34,19 @@ def _arrange(app, doctree):
         ]
         for image in list(cell.findall(nodes.image)):
             if texts:
-                image.replace_self(_picture(app, image["uri"], texts.pop(0)))
+                image.replace_self(_shown(app, image, *texts.pop(0)))
             else:
                 _warn("a picture without a comment '# Picture: …' above it", cell)
         for trace in list(cell.findall(_is_empty_trace)):
             trace.parent.remove(trace)
         if "tag_fold" in cell["classes"]:
-            cell[0].replace_self(fold("", cell[0].deepcopy(), summary="How this picture is drawn"))
-        for text in texts:
-            _warn(f"'# Picture: {text}' has no picture below it", cell)
+            kind = "film" if next(cell.findall(pictures.film), None) else "picture"
+            summary = f"How this {kind} is drawn"
+            cell[0].replace_self(fold("", cell[0].deepcopy(), summary=summary))
+        elif "tag_only-result" in cell["classes"]:
+            cell.pop(0)
+        for kind, text in texts:
+            _warn(f"'# {kind}: {text}' has no {kind.lower()} below it", cell)
 
 
 def _is_cell(node):
@@ -55,22 +63,37 @@ def _is_empty_trace(node):
 
 
 def _take_texts(code):
-    texts = [text for kind, text in pictures.comments(code.astext()) if kind == "Picture"]
+    texts = [(kind, text) for kind, text in pictures.comments(code.astext()) if kind != "GIF"]
     clean(code)
     return texts
 
 
-def _picture(app, uri, text):
-    path = Path(app.srcdir, uri)
+def _shown(app, image, kind, text):
+    """Return the picture or film that a cell has drawn, with its text and its size."""
+    path = Path(app.srcdir, image["uri"])
     smaller = path.with_suffix(".webp")
     with Image.open(path) as figure:
         width, height = (round(pixels / pictures.SHARP) for pixels in figure.size)
         if not smaller.exists():  # its name is made from what it shows
             pictures.save(figure.convert("RGB"), smaller)
-    del app.env.images[uri]
-    uri = uri.removesuffix(".png") + ".webp"
+    del app.env.images[image["uri"]]
+    size = {"width": width, "height": height}
+    if kind == "Picture":
+        return pictures.picture(alt=text, **_file(app, smaller), **size)
+    still = pictures.picture(alt="", **_file(app, smaller), **size)
+    film = Path(app.doctreedir, FILMS, f"{path.stem}.mp4")
+    return pictures.film("", still, alt=text, **_file(app, film), **size)
+
+
+def _file(app, path):
+    """Return the attributes by which Sphinx finds a file that is not among the sources."""
+    uri = Path(os.path.relpath(path, app.srcdir)).as_posix()
     app.env.images.add_file(app.env.docname, uri)
-    return pictures.picture(alt=text, width=width, height=height, uri=uri, candidates={"*": uri})
+    return {"uri": uri, "candidates": {"*": uri}}
+
+
+def _say_where_films_go(app):
+    os.environ["PAGE_FILMS"] = str(Path(app.doctreedir, FILMS))
 
 
 def _warn(message, node):
@@ -78,9 +101,14 @@ def _warn(message, node):
 
 
 def setup(app):
-    paths = (str(Path(__file__).parent / "jupyter"), os.environ.get("JUPYTER_PATH"))
-    os.environ["JUPYTER_PATH"] = os.pathsep.join(filter(None, paths))
+    _put_first("JUPYTER_PATH", EXT / "jupyter")
+    _put_first("PYTHONPATH", EXT)  # for the kernel, which saves films
     # A style of Pygments lets every library write to the terminal what it is doing.
     python_logging.getLogger("traitlets").setLevel(python_logging.WARNING)
+    app.connect("builder-inited", _say_where_films_go)
     app.connect("doctree-read", _arrange)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
+
+
+def _put_first(variable, folder):
+    os.environ[variable] = os.pathsep.join(filter(None, (str(folder), os.environ.get(variable))))

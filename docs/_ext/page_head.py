@@ -37,7 +37,7 @@ LANDMARKS = {
 
 
 def _describe(app, pagename, templatename, context, doctree):
-    text = GENERATED.get(pagename) or _first_sentences(doctree)
+    text = GENERATED.get(pagename) or context.get("description") or _first_sentences(doctree)
     tags = {"description": text}
     if SITE:
         tags |= {

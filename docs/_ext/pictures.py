@@ -9,7 +9,9 @@ What a check reports is shown in its place, above the figures.
 
 from __future__ import annotations
 
+import hashlib
 import io
+import os
 import re
 import shutil
 import textwrap
@@ -207,6 +209,29 @@ def _save_film(animation, path):
     writer = Writer(fps=round(1000 / animation._interval))
     animation.save(path, writer=writer, dpi=1.5 * CSS_DPI)
     return writer.middle
+
+
+def load_ipython_extension(shell):
+    """In the kernel of executed pages: show an animation as its film.
+
+    What IPython hands on is a picture of the middle; the film lies in the folder PAGE_FILMS,
+    under the hash of that picture, by which MyST-NB names the picture, too.
+    """
+    from matplotlib.animation import Animation
+
+    shell.display_formatter.formatters["image/png"].for_type(Animation, _film_of_cell)
+
+
+def _film_of_cell(animation):
+    import matplotlib.pyplot as plt
+
+    film = Path(os.environ["PAGE_FILMS"], "new.mp4")
+    film.parent.mkdir(exist_ok=True)
+    still = io.BytesIO()
+    _save_film(animation, film).save(still, "PNG")
+    plt.close(animation._fig)
+    film.replace(film.with_stem(hashlib.sha256(still.getvalue()).hexdigest()))
+    return still.getvalue()
 
 
 class picture(nodes.image):

@@ -1,12 +1,18 @@
-"""The list of a block's tasks, made from the registry: `.. task-cards:: interpolation`."""
+"""The list of a block's tasks, made from the registry: `.. task-cards:: interpolation`.
+
+With `:toctree:` these tasks are the page's children in the navigation.
+"""
 
 from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import ClassVar
 
 from docutils import nodes
+from docutils.parsers.rst import directives
 from pictures import picture
+from sphinx import addnodes
 from sphinx.util import logging
 from sphinx.util.docutils import SphinxDirective
 from task_page import builds_on, page_link
@@ -27,15 +33,34 @@ class TaskCards(SphinxDirective):
     """A card for each task of a block, or a sentence where there is none yet."""
 
     required_arguments = 1
+    option_spec: ClassVar = {"toctree": directives.flag}
 
     def run(self):
         block = self.arguments[0]
         if block not in BLOCKS:
             self.warn(f"no block {block!r}, only {', '.join(BLOCKS)}")
-        cards = [self.card(task) for task in TASKS.values() if task.block == block]
-        if not cards:
+        tasks = [task for task in TASKS.values() if task.block == block]
+        if not tasks:
             return [nodes.paragraph("", "The tasks of this block follow.")]
-        return [nodes.bullet_list("", *cards, classes=["task-cards"])]
+        cards = nodes.bullet_list("", *map(self.card, tasks), classes=["task-cards"])
+        return [cards, self.toctree(tasks)] if "toctree" in self.options else [cards]
+
+    def toctree(self, tasks):
+        pages = [task.page for task in tasks]
+        children = addnodes.toctree(
+            "",
+            parent=self.env.docname,
+            entries=[(None, page) for page in pages],
+            includefiles=pages,
+            maxdepth=-1,
+            caption=None,
+            glob=False,
+            hidden=True,
+            includehidden=False,
+            numbered=0,
+            titlesonly=True,
+        )
+        return nodes.compound("", children, classes=["toctree-wrapper"])
 
     def card(self, task):
         title = nodes.paragraph("", "", classes=["task-cards-title"])

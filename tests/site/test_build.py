@@ -204,3 +204,36 @@ def test_an_error_ends_the_build(execute):
     built = execute(EXECUTED.replace("plt.show()", "1 / 0"))
     assert built.returncode != 0
     assert "ZeroDivisionError" in built.stderr
+
+
+MOVING = """
+fig, ax = plt.subplots(figsize=(3, 2))
+(dot,) = ax.plot(0, 0, "o")
+FuncAnimation(fig, lambda i: dot.set_data([i / 9], [0]), frames=9, interval=40)
+"""
+
+
+def test_an_animation_is_shown_as_its_film(execute, tmp_path):
+    code = EXECUTED.replace(
+        "import matplotlib", "from matplotlib.animation import FuncAnimation\nimport matplotlib"
+    )
+    code = code.replace("# Picture: A line", "# Film: A dot").replace(
+        "plt.subplots(figsize=(3, 2))[1].plot([0, 1])\nplt.show()\n", MOVING
+    )
+    built = execute(code)
+    assert built.stderr == ""
+    page = (tmp_path / "html/index.html").read_text(encoding="utf-8")
+    (film,) = re.findall(r'<source src="(_images/\w+\.mp4)"', page)
+    (poster,) = re.findall(r'poster="(_images/\w+\.webp)" width="300" height="200"', page)
+    assert page.count("<img") == 0  # the picture of the middle is only the poster
+    assert 'aria-label="Film: A dot that rises, from left to right."' in page
+    assert "How this film is drawn" in page
+    assert all((tmp_path / "html" / name).stat().st_size > 1000 for name in (film, poster))
+
+
+def test_only_the_result_of_a_cell_is_shown(execute, tmp_path):
+    built = execute(EXECUTED.replace("[fold]", "[only-result]"))
+    assert built.stderr == ""
+    page = (tmp_path / "html/index.html").read_text(encoding="utf-8")
+    assert "subplots" not in page
+    assert "A line that rises" in page
