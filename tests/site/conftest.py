@@ -151,6 +151,17 @@ class Document(HTMLParser):
 
 
 @pytest.fixture(scope="session")
-def documents(site):
+def read_pages():
+    """Read all pages in a folder; return them by their address within it."""
+
+    def read(folder):
+        pages = folder.rglob("*.html")
+        return {path.relative_to(folder).as_posix(): Document(path) for path in pages}
+
+    return read
+
+
+@pytest.fixture(scope="session")
+def documents(site, read_pages):
     """All pages, by their address within the site."""
-    return {path.relative_to(site).as_posix(): Document(path) for path in site.rglob("*.html")}
+    return read_pages(site)

@@ -173,7 +173,7 @@ def execute(tmp_path):
         (tmp_path / "source").mkdir()
         (tmp_path / "source/index.md").write_text(text, encoding="utf-8")
         settings = (ROOT / "docs/conf.py").read_text(encoding="utf-8")
-        lines = re.findall(r"^nb_.*\n", settings, re.M)
+        lines = re.findall(r"^(?:nb_|html_scaled).*\n", settings, re.M)
         lines.append('extensions = ["myst_nb", "notebooks", "pictures", "task_page"]')
         (tmp_path / "source/conf.py").write_text("".join(lines), encoding="utf-8")
         return sphinx(tmp_path / "source", tmp_path / "html", "-W", "--keep-going")

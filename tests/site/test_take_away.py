@@ -5,7 +5,6 @@ import zipfile
 from urllib.parse import unquote, urlsplit
 
 import pytest
-from conftest import Document
 
 from canim.checks import BLOCKS, TASKS
 
@@ -33,18 +32,18 @@ def test_zip_does_not_tell_when_it_was_made(site):
         assert {member.date_time for member in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
 
 
-def test_links_lead_to_files(unpacked):
+def test_links_lead_to_files(unpacked, read_pages):
     """On a disk a folder is no page, and what a page names must be beside it."""
     broken = []
-    for path in unpacked.rglob("*.html"):
-        for element in Document(path).elements:
+    for page, document in read_pages(unpacked).items():
+        for element in document.elements:
             for key in ("href", "src", "poster"):
                 parts = urlsplit(element.get(key) or "")
                 if parts.scheme or not parts.path or element.get("rel") == "canonical":
                     continue
-                target = posixpath.join(path.parent.as_posix(), unquote(parts.path))
+                target = posixpath.join(posixpath.dirname(page), unquote(parts.path))
                 if not (unpacked / posixpath.normpath(target)).is_file():
-                    broken.append(f"{path.relative_to(unpacked)}: {element[key]}")
+                    broken.append(f"{page}: {element[key]}")
     assert broken == []
 
 
@@ -55,7 +54,7 @@ def disk(chromium):
     page.said = []
     page.on("console", lambda message: page.said.append(f"{page.url}: {message.text}"))
     page.on("pageerror", lambda error: page.said.append(f"{page.url}: {error}"))
-    page.on("requestfailed", lambda request: page.said.append(f"failed: {request.url}"))
+    page.on("requestfailed", lambda r: page.said.append(f"{r.failure}: {r.url}"))
     yield page
     context.close()
 
@@ -64,7 +63,8 @@ def test_pages_open_from_a_disk(disk, unpacked):
     for path in sorted(unpacked.rglob("*.html")):
         disk.goto(path.as_uri(), wait_until="load")
         assert disk.locator("h1").first.is_visible(), path
-    assert disk.said == []
+    # An icon may still be on its way when the next page is opened.
+    assert [text for text in disk.said if not text.startswith("net::ERR_ABORTED")] == []
 
 
 def test_search_works_from_a_disk(disk, unpacked):
@@ -92,15 +92,17 @@ def test_a_block_on_paper(visit, block):
     assert titles[0] == BLOCKS[block]
     assert [title[: len(task)] for title, task in zip(titles[1:], tasks, strict=True)] == tasks
     assert opened.locator("video, details:not([open]), button.copybtn:visible").count() == 0
-    assert not opened.locator(".sidebar-drawer").is_visible()
+    assert not opened.locator(".skip-to-content").is_visible()  # it would be on every sheet
     wide = opened.locator("article pre, article img, article .formula-body").evaluate_all(
         "all => all.filter(e => e.getBoundingClientRect().right > innerWidth + 1).length"
     )
     assert wide == 0
 
 
-def test_links_of_a_block_on_paper_stay_there(documents):
-    page = documents["gallery/interpolation/print.html"]
-    links = [e["href"] for e in page.all("a") if "task_1_2" in e.get("href", "")]
+def test_links_of_a_block_on_paper_stay_there(visit):
+    opened = visit("gallery/interpolation/print.html")
+    links = opened.locator("article a[href*=task_1_2]").evaluate_all(
+        "all => all.map(a => a.getAttribute('href'))"
+    )
     assert links
     assert all(link.startswith("#task_1_2") for link in links)
