@@ -16,7 +16,9 @@ from canim.checks import BLOCKS, TASKS
 OFFLINE = "canim-course.zip"
 PRINTED = {f"gallery/{block}/print": block for block in BLOCKS}
 # Python in the page needs a server; the rest is for Sphinx, or this file itself.
-LEFT_OUT = {"_run", "_sources", ".buildinfo", OFFLINE}
+LEFT_OUT = {"_run", "service_worker.js", "_sources", ".buildinfo", OFFLINE}
+COPIED = "You are reading it: this is the copy on your disk."
+RUN = re.compile(r"<script[^>]*/run\.js[^>]*></script>")
 COPY = re.compile(r'<p class="buttons" id="take-course">.*?</p>')
 REFERRING = ("id", "for", "aria-controls", "aria-describedby", "aria-labelledby")
 
@@ -85,7 +87,7 @@ def _article(path):
 def _fit_in(part, name, anchors):
     """Make a page a part of a larger one: its headings, its ids, and what paper cannot do."""
     for gone in part.select(
-        "script, button, .buttons, .task-install, .page-source, .task-cards, .headerlink"
+        "script, button, canim-run, .buttons, .task-install, .page-source, .task-cards, .headerlink"
     ):
         gone.decompose()
     for image in part.select('details img[src$=".gif"]'):
@@ -125,10 +127,8 @@ def _zip(app, exception):
                 continue
             data = path.read_bytes()
             if path.suffix == ".html":
-                text = COPY.sub(
-                    "<p>You are reading it: this is the copy on your disk.</p>", data.decode()
-                )
-                data = text.encode()
+                text = COPY.sub(f"<p>{COPIED}</p>", data.decode())
+                data = RUN.sub("", text).encode()
             put_into(together, f"canim-course/{name.as_posix()}", data)
 
 
