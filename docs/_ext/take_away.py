@@ -87,9 +87,11 @@ def _article(path):
 def _fit_in(part, name, anchors):
     """Make a page a part of a larger one: its headings, its ids, and what paper cannot do."""
     for gone in part.select(
-        "script, button, canim-run, .buttons, .task-install, .page-source, .task-cards, .headerlink"
+        "script, button, canim-run > template, .run-missing, .buttons, .task-install, .page-source, .task-cards, .headerlink"
     ):
         gone.decompose()
+    for run in part.find_all("canim-run"):
+        run.unwrap()  # the program in it stays
     for image in part.select('details img[src$=".gif"]'):
         image.find_parent("details").decompose()
     for details in part.find_all("details"):

@@ -92,7 +92,10 @@ def test_a_block_on_paper(visit, block):
     tasks = [f"Task {t.id}: " for t in TASKS.values() if t.block == block]
     assert titles[0] == BLOCKS[block]
     assert [title[: len(task)] for title, task in zip(titles[1:], tasks, strict=True)] == tasks
-    assert opened.locator("video, details:not([open]), button.copybtn:visible").count() == 0
+    assert opened.locator("article pre", has_text="# TODO").count() >= len(tasks)
+    assert (
+        opened.locator("video, canim-run, details:not([open]), button.copybtn:visible").count() == 0
+    )
     assert not opened.locator(".skip-to-content").is_visible()  # it would be on every sheet
     wide = opened.locator("article pre, article img, article .formula-body").evaluate_all(
         "all => all.filter(e => e.getBoundingClientRect().right > innerWidth + 1).length"
