@@ -20,6 +20,10 @@ LEFT_OUT = {"_run", "service_worker.js", "_sources", ".buildinfo", OFFLINE}
 COPIED = "You are reading it: this is the copy on your disk."
 RUN = re.compile(r"<script[^>]*/run\.js[^>]*></script>")
 COPY = re.compile(r'<p class="buttons" id="take-course">.*?</p>')
+ONLY_ON_SCREEN = (
+    "script, button, canim-run > template, .run-missing, .buttons, .task-install, .page-source, "
+    ".task-cards, .headerlink"
+)
 REFERRING = ("id", "for", "aria-controls", "aria-describedby", "aria-labelledby")
 
 
@@ -86,9 +90,7 @@ def _article(path):
 
 def _fit_in(part, name, anchors):
     """Make a page a part of a larger one: its headings, its ids, and what paper cannot do."""
-    for gone in part.select(
-        "script, button, canim-run > template, .run-missing, .buttons, .task-install, .page-source, .task-cards, .headerlink"
-    ):
+    for gone in part.select(ONLY_ON_SCREEN):
         gone.decompose()
     for run in part.find_all("canim-run"):
         run.unwrap()  # the program in it stays
