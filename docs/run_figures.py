@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import functools
 import gzip
+import os
 import re
 import shutil
 import statistics
@@ -128,9 +129,11 @@ if __name__ == "__main__":
     parser.add_argument("--site", type=Path, default=DOCS / "_build/html")
     parser.add_argument("--rounds", type=int, default=5)
     given = parser.parse_args()
+    busy = os.getloadavg()[0]
     version, rows = measure(given.site, given.rounds)
     lines = [
-        f"Chromium {version}, headless, on 2 cores; the median of {given.rounds} readers.\n",
+        f"Chromium {version}, headless, on 2 cores; the median of {given.rounds} readers. "
+        f"Load of the machine before: {busy:.1f}; with 2 and more, clock times are too long.\n",
         "| what | measured | goal |",
         "| --- | --- | --- |",
         *(f"| {' | '.join(row)} |" for row in rows),
