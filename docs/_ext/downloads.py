@@ -50,13 +50,13 @@ def _say_how_to_install(app, config):
 
 
 class Start(SphinxDirective):
-    """`.. start::` puts buttons: the first task, all starters."""
+    """`.. start::` puts buttons: the first task, the warm-up, all starters."""
 
     def run(self):
         up = "../" * self.env.docname.count("/")
-        first = next(iter(TASKS.values()))
         buttons = {
-            f"Start with Task {first.id}, the warm-up": f"{first.page}.html",
+            "Start with Task 1.1": f"{TASKS['1.1'].page}.html",
+            "Warm up first <span>(Task 0.0)</span>": f"{TASKS['0.0'].page}.html",
             "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
         }
         links = "".join(
