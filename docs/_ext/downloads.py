@@ -56,7 +56,7 @@ class Start(SphinxDirective):
         up = "../" * self.env.docname.count("/")
         buttons = {
             "Start with Task 1.1": f"{TASKS['1.1'].page}.html",
-            "Warm up first <span>(Task 0.0)</span>": f"{TASKS['0.0'].page}.html",
+            "New here? Warm up first <span>(Task 0.0)</span>": f"{TASKS['0.0'].page}.html",
             "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
         }
         links = "".join(

@@ -17,7 +17,7 @@ from canim.plotting import animate_chain
 
 plt.style.use("canim.style")
 
-click = False  # True: the goal is where your mouse is
+click = False  # True: you choose the goals
 offsets = np.array([[0.0, 1.0], [0.0, 1.0], [0.0, 1.0]])  # the chain of Task 3.1
 start = np.radians([-20.0, 50.0, 40.0])
 goals = np.random.default_rng(249).uniform(-2, 2, (5, 2))  # at random, all within reach

@@ -23,6 +23,7 @@ PROGRAMS = {
     "import numpy as np\nnp.eye(4) @ 2.0": "One side of @ is a single number",
     "(1, 2) - (3, 4)": "Lists and tuples do not calculate",
     "x = 2t": "Is a star missing?",
+    "x = (1 - t)a[1]": "Is a star or bracket missing?",
     "H(1) = 2": "A place in a list or array takes square brackets.",
     "if x = 1:\n    pass": "A comparison takes two equal signs",
     "1 / 0": "Something is divided by zero.",

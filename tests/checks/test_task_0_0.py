@@ -42,6 +42,16 @@ def test_each_line_is_judged_by_itself():
     assert found[0].mistake == "shares exchanged"
 
 
+def test_a_larger_error_in_another_test_is_said_to_be_one():
+    def blend(a, b, t):
+        return (1 - t) * a[0] + t * b[0], (1 - t) * a[1] + t * b[0]
+
+    report = checks.run(checks.find("0.0"), {"blend": blend})
+    assert report.results[1].message == (
+        "at t = 1: expected 4, got 7 (largest error of all tests 4)"
+    )
+
+
 def test_points_as_rows_are_a_wrong_shape():
     message = results(lambda a, b, t: _point_by_point(a, b, t).T)[0].message
     assert "returns an array of shape (11, 2), expected (2, 11)" in message

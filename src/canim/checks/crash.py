@@ -126,6 +126,7 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (SyntaxError, "unterminated", "A text is opened and never closed: a quote is missing."),
     (SyntaxError, "character", "Python does not know this sign. Type it anew on the keyboard."),
     (SyntaxError, "outside", "This line belongs to the lines above: it starts further right."),
+    (SyntaxError, r"syntax( \(|$)", "Python cannot read this line. Is a star or bracket missing?"),
     (SyntaxError, "", "Python cannot read this line."),
     (UnboundLocalError, "", "The name {name} is used before it gets a value."),
     (NameError, "", "The name {name} is not known here. Look at its spelling."),

@@ -148,7 +148,9 @@ def _difference(part: Part, differing: Compared) -> str:
     place = part.place(tuple(int(i) for i in index), *args)
     where = ", ".join(text for text in (label, place) if text)
     largest = max(_largest_error(g, e) for _, _, g, e in differing)
-    size = f" (largest error {number(largest)})" if got.size > 1 and np.isfinite(largest) else ""
+    of_all = "" if largest <= error[index] else " of all tests"
+    size = f" (largest error{of_all} {number(largest)})"
+    size = size if got.size > 1 and np.isfinite(largest) else ""
     head = f"{where}: " if where else ""
     return f"{head}expected {number(expected[index])}, got {number(got[index])}{size}"
 
