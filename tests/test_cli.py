@@ -266,6 +266,9 @@ def test_a_program_that_dies_is_told(capsys):
         ("text.txt", b"x = 1", "neither a .py nor an .ipynb file"),
         ("list.ipynb", b"[1]", "is not a Jupyter notebook"),
         ("no.ipynb", b"{", "is not a Jupyter notebook"),
+        ("deep.ipynb", b"[" * 100_000, "is not a Jupyter notebook"),
+        ("deep.py", b"x = " + b"-" * 100_000 + b"1", "deep.py is nested too deep for Python"),
+        ("calls.py", b"x" + b"()" * 1500, "calls.py is"),
     ],
 )
 def test_a_file_that_cannot_be_used_exits_2_with_a_sentence(folder, name, content, words, capsys):
@@ -313,6 +316,12 @@ def test_notebooks_are_checked_and_lines_for_ipython_passed_over():
     assert main(["check", "n.ipynb"]) == 0
     write("n.ipynb", notebook("x = (7\n    % 4)\nassert x == 3", DONE))
     assert main(["check", "n.ipynb"]) == 0
+
+
+def test_a_cell_that_is_nested_too_deep_is_told(capsys):
+    write("n.ipynb", notebook("x = " + "-" * 100_000 + "1", DONE))
+    assert main(["check", "n.ipynb"]) == 2
+    assert "n.ipynb, code cell 1 is nested too deep" in capsys.readouterr().err
 
 
 def test_a_crash_in_a_notebook_names_the_cells_line(capsys):

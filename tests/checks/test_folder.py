@@ -177,6 +177,28 @@ def test_results_are_written_as_json(handed_in, tmp_path, capsys):
     assert rows[1]["passed"] is False
 
 
+@pytest.mark.parametrize("suffix", [".csv", ".json"])
+def test_halves_of_letters_do_not_cost_the_table(suffix, tmp_path):
+    row = folder._row("\udc80.py", answers={"1": "\ud83d", "2": "\N{GRINNING FACE}"})
+    table = tmp_path / f"results{suffix}"
+    folder.write([row], table)
+    text = table.read_text(encoding="utf-8-sig")
+    assert all(part in text for part in ("\\udc80.py", "\\ud83d", "\N{GRINNING FACE}"))
+    if suffix == ".json":
+        assert json.loads(text) == [row]
+    assert list(tmp_path.iterdir()) == [table]
+
+
+@pytest.mark.parametrize("suffix", [".csv", ".json"])
+def test_a_table_stays_where_the_next_one_fails(suffix, tmp_path):
+    table = tmp_path / f"results{suffix}"
+    table.write_text("before")
+    with pytest.raises(TypeError):
+        folder.write([folder._row("x", answers=3 if suffix == ".csv" else {"1": print})], table)
+    assert table.read_text() == "before"
+    assert list(tmp_path.iterdir()) == [table]
+
+
 def test_somebody_who_looks_on_sees_how_far_it_is(handed_in, alone, monkeypatch, capsys):
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True, raising=False)
     main(["check", str(handed_in / "ann")])

@@ -1,5 +1,6 @@
 """Functions and data of a program in another process, called as if they were here."""
 
+import json
 import multiprocessing
 import threading
 
@@ -8,9 +9,10 @@ import pytest
 
 from canim import checks
 from canim.checks import file
+from canim.checks.crash import Crash
 from canim.checks.file import check_file
 from canim.checks.program import Stopped
-from canim.checks.remote import Gone, Peer
+from canim.checks.remote import Gone, Peer, heard
 
 TASK = checks.TASKS["1.4"]
 HEADS = {
@@ -173,6 +175,51 @@ def test_errors_of_such_functions_are_errors_there(error):
     there.close()
     expected = RuntimeError if isinstance(error, Gone) else type(error)
     assert type(caught[0]) is expected
+
+
+@pytest.mark.parametrize(
+    "name", ["exec", "eval", "print", "SystemExit", "KeyboardInterrupt", "__name__", "no such", 3]
+)
+def test_an_error_from_there_is_an_error_here_whatever_its_name(name, capsys):
+    here, there = multiprocessing.Pipe()
+    function = {"dict": [["value", {"function": 0}]]}
+    failed = {"dict": [["error", {"list": [name, "print('ran')"]}]]}
+    there.send_bytes(json.dumps({"dict": [["reply", function]]}).encode())
+    there.send_bytes(json.dumps({"dict": [["reply", failed]]}).encode())
+    call = Peer(here, dict).ask()["value"]
+    with pytest.raises(RuntimeError, match="print"):
+        call()
+    assert capsys.readouterr().out == ""
+    here.close()
+    there.close()
+
+
+@pytest.mark.parametrize("name", ["exec", "SystemExit"])
+def test_a_class_of_the_student_that_is_called_like_a_builtin_does_no_harm(check, name, capsys):
+    text = f"    class {name}(Exception): pass\n    raise {name}('print(\"ran\")')\n"
+    report = check(f=text)
+    assert report.results[0].message.startswith("f stops in line 5:")
+    assert capsys.readouterr().out == ""
+
+
+def test_a_place_from_there_is_made_of_numbers_and_texts():
+    fields = {"line": 2.0, "code": ["x"], "sentence": None, "start": -9, "end": "3"}
+    stopped = heard({"stopped": 5, "problem": fields})
+    assert stopped.name == "5"
+    assert stopped.problem == Crash(2, "['x']", "None", 0, 3)
+    assert heard({"stopped": "f", "problem": 3}).problem == "3"
+
+
+@pytest.mark.parametrize("stopped", [{"line": "x"}, 7, {"other": 1}])
+def test_a_false_place_of_the_stop_gives_a_plain_report(check, monkeypatch, stopped):
+    asked = file.Peer.ask
+
+    def ask(self, **question):
+        reply = asked(self, **question)
+        return reply | {"stopped": stopped} if "run" in question else reply
+
+    monkeypatch.setattr(file.Peer, "ask", ask)
+    assert "gives results that cannot be compared" in " ".join(str(check()).split())
 
 
 @pytest.mark.parametrize(

@@ -16,10 +16,10 @@ from pathlib import Path
 from typing import Any
 
 from canim import checks
-from canim.checks.crash import Crash, explain
+from canim.checks.crash import explain
 from canim.checks.guard import Guard, Limits, make
 from canim.checks.picture import png
-from canim.checks.remote import Gone, Peer, Remote
+from canim.checks.remote import Gone, Peer, Remote, crash
 from canim.checks.report import Report, Result, stops
 from canim.checks.run import judge
 from canim.checks.task import Task
@@ -98,7 +98,8 @@ def _run(
         peer = Peer(guard.start(limits), _refuse)
         try:
             ran = peer.ask(run=order)
-            stopped = ran["stopped"] and Crash(**ran["stopped"])
+            stopped = crash(ran["stopped"]) if ran["stopped"] else None
+            missing = bool(ran["missing"])
             answers = {str(question): str(text) for question, text in ran["answers"].items()}
             remote = Remote(task, peer, lambda: why("ends the program instead of returning."))
             report = judge(task, remote)
@@ -109,7 +110,7 @@ def _run(
             return _empty(task, "gives results that cannot be compared: it has changed numpy.")
         finally:
             guard.end()
-    if stopped and ran["missing"]:
+    if stopped and missing:
         # Where functions are broken, the report does not tell the stop that follows from it.
         report = replace(report, notes=(f"The program {stops(stopped)}", *report.notes))
     return replace(report, stopped=stopped, answers=answers)
@@ -189,9 +190,11 @@ def _parse(code: str, name: str) -> ast.Module:
     try:
         return ast.parse(code, name)
     except SyntaxError as error:
-        crash = explain(error, lambda _: False)
-        where = f"{name}, line {crash.line}:\n{crash.marked}"
-        raise UnusableFile(f"{where}\n{crash.sentence}") from None
+        found = explain(error, lambda _: False)
+        where = f"{name}, line {found.line}:\n{found.marked}"
+        raise UnusableFile(f"{where}\n{found.sentence}") from None
+    except (RecursionError, MemoryError):
+        raise UnusableFile(f"{name} is nested too deep for Python to read.") from None
     except ValueError as error:
         raise UnusableFile(f"{name} is not a Python program: {error}.") from None
 
@@ -212,7 +215,7 @@ def _sources(path: Path) -> list[tuple[str, str]]:
     try:
         cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
         codes = ["".join(cell["source"]) for cell in cells]
-    except (ValueError, KeyError, TypeError):
+    except (ValueError, KeyError, TypeError, RecursionError, MemoryError):
         raise UnusableFile(f"{path} is not a Jupyter notebook.") from None
     return [(_python_of(code), f"{path}, code cell {i}") for i, code in enumerate(codes, 1)]
 
@@ -221,7 +224,7 @@ def _python_of(code: str) -> str:
     """Return a cell's code without lines for IPython, such as %pip and print?."""
     try:
         ast.parse(code)
-    except (SyntaxError, ValueError):
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
         return re.sub(r"^([ \t]*)(?:[%!?].*|[^#\n]*\?)$", r"\1pass", code, flags=re.M)
     return code  # in Python, a line may begin with the operator %
 
@@ -237,7 +240,7 @@ def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
         for tree in trees
         for node in ast.walk(tree)
         if isinstance(node, ast.Call)
-        and ast.unparse(node.func) in ("canim.check", "check")
+        and _is_check(node.func)
         and node.args
         and isinstance(node.args[0], ast.Constant)
     ]
@@ -246,3 +249,11 @@ def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
         if number in checks.TASKS:
             return checks.TASKS[str(number)]
     raise UnusableFile(f"{path} is not a task of the course: say which one with --task, as in 1.1.")
+
+
+def _is_check(function: ast.expr) -> bool:
+    """Tell whether this is ``check`` or ``canim.check``, however deep a program is nested."""
+    match function:
+        case ast.Name("check") | ast.Attribute(ast.Name("canim"), "check"):
+            return True
+    return False

@@ -186,14 +186,32 @@ def summary(rows: list[Row]) -> list[str]:
 
 def write(rows: list[Row], path: Path) -> None:
     """Write the rows as CSV, for a spreadsheet, or as JSON."""
-    if path.suffix == ".json":
-        text = json.dumps(rows, ensure_ascii=False, indent=1)
-        path.write_text(text + "\n", encoding="utf-8", newline="\n")
-        return
+    unfinished = _unfinished(path)
+    try:
+        (_write_json if path.suffix == ".json" else _write_csv)(rows, unfinished)
+        unfinished.replace(path)  # what was there before stays until the new table is whole
+    finally:
+        unfinished.unlink(missing_ok=True)
+
+
+def _unfinished(path: Path) -> Path:
+    return path.with_name(f".{path.name}.part")
+
+
+# Names of files and answers may hold halves of letters, which UTF-8 cannot write.
+_HALVES = "backslashreplace"
+
+
+def _write_json(rows: list[Row], path: Path) -> None:
+    text = json.dumps(rows, ensure_ascii=False, indent=1)
+    path.write_text(text + "\n", encoding="utf-8", errors=_HALVES, newline="\n")
+
+
+def _write_csv(rows: list[Row], path: Path) -> None:
     questions = sorted({question for row in rows for question in row["answers"]}, key=_counted)
     plain = [key for key in _row("") if key != "answers"]
     # With the mark at the beginning, spreadsheets read letters of all languages.
-    with path.open("w", encoding="utf-8-sig", newline="") as file:
+    with path.open("w", encoding="utf-8-sig", errors=_HALVES, newline="") as file:
         table = csv.writer(file)
         table.writerow([*plain, *(f"answer {question}" for question in questions)])
         for row in rows:

@@ -89,7 +89,7 @@ class Peer:
             raise heard(reply)
         if "error" in reply:
             name, text = reply["error"]
-            raise getattr(builtins, name, RuntimeError)(text)
+            raise _kind(name)(str(text))
         return reply["value"]
 
     def _send(self, message: dict[str, Any]) -> None:
@@ -147,6 +147,12 @@ class Peer:
         return type(str(content), (), {})()
 
 
+def _kind(name: Any) -> type[Exception]:
+    """Return Python's own error of that name; the name is the other side's, and may be any."""
+    kind = getattr(builtins, str(name), None)
+    return kind if isinstance(kind, type) and issubclass(kind, Exception) else RuntimeError
+
+
 def told(stopped: Stopped) -> dict[str, Any]:
     """Return `stopped` as a reply."""
     problem = stopped.problem
@@ -157,7 +163,14 @@ def told(stopped: Stopped) -> dict[str, Any]:
 def heard(reply: dict[str, Any]) -> Stopped:
     """Return what a reply made by `told` says."""
     problem = reply["problem"]
-    return Stopped(reply["stopped"], Crash(**problem) if isinstance(problem, dict) else problem)
+    found = crash(problem) if isinstance(problem, dict) else str(problem)
+    return Stopped(str(reply["stopped"]), found)
+
+
+def crash(fields: dict[str, Any]) -> Crash:
+    """Return the crash with these fields, which the other side may have filled with anything."""
+    line, start, end = (max(0, int(fields[name])) for name in ("line", "start", "end"))
+    return Crash(line, str(fields["code"]), str(fields["sentence"]), start, end)
 
 
 class Remote(Program):
@@ -206,6 +219,6 @@ class Remote(Program):
             self.uses_canim.update(dict.fromkeys(reply["uses_canim"]))
             self.changes.update(dict.fromkeys(reply["changes"]))
             return heard(reply) if "stopped" in reply else reply["value"]
-        except (Gone, LookupError, TypeError):
+        except (Gone, LookupError, TypeError, ValueError):
             self._last = Stopped(name, f"{name} {self._why()}")
             return self._last
