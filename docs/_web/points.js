@@ -32,7 +32,7 @@ export class Points {
     const bar = make("div", { className: "run-bar" });
     bar.append(button(`Run with these ${what}`, () => use({ frames, lists: this.lists }), "run-main"));
     bar.append(button("Add a point", () => this.#add([0.5, 0.5])));
-    bar.append(button("The first ones again", () => put(first)));
+    bar.append(button("The given ones again", () => put(first)));
     bar.append(button("Take all away", () => put(lists.map(() => []))));
     const grounds = make("div", { className: "run-grounds" }, ...this.grounds);
     this.element = make(

@@ -49,7 +49,7 @@ class Run extends HTMLElement {
   #prepared = false;
   /** @type {{[kind: string]: any}} what the reader has answered to the program */
   #answers = {};
-  /** @type {string[]} what input() gets in the next run */
+  /** @type {string[]} what input() gets in this run */
   #texts = [];
   /** @type {{name: string, bytes: Uint8Array}[]} */
   #files = [];
@@ -84,7 +84,7 @@ class Run extends HTMLElement {
     const bar = make("div", { className: "run-bar", role: "group", "aria-label": "The program" }, this.#stop);
     bar.prepend(button("Run", () => this.#run(), "run-main"));
     bar.append(
-      button("Start over", () => confirm("Take the starter again? Your program is lost.") && this.#startOver()),
+      button("Start over", () => confirm("Take the starter again? Your program will be lost.") && this.#startOver()),
     );
     bar.append(button("Download .py", () => save(this.#name, [this.#text])));
     if (this.dataset.block === "warping") bar.append(this.#pictures());
@@ -194,11 +194,12 @@ class Run extends HTMLElement {
     this.#order("load");
   }
 
-  #run() {
+  #run(texts = /** @type {string[]} */ ([])) {
     if (this.#state !== "idle") {
       this.#again = this.#state === "running";
       return;
     }
+    this.#texts = texts;
     this.#prepare();
     this.#state = this.#python.isReady ? "running" : "loading";
     this.#say(this.#python.isReady ? "Running …" : `Python is loading, ${loads(this.#text)} the first time.`);
@@ -209,6 +210,7 @@ class Run extends HTMLElement {
 
   /** End what runs, and load a new Python, from what the browser has kept. @param {string} words */
   #end(words) {
+    this.#again = false;
     this.#python.end();
     for (const film of this.#films.values()) film.isComplete = true;
     this.#ended(words);
@@ -243,10 +245,8 @@ class Run extends HTMLElement {
     else if (kind === "file") this.#shown.append(button(`Save ${message.name}`, () => save(message.name, blobs)));
     else if (kind === "points") this.#points(message);
     else if (kind === "question") this.#question(text);
-    else if (kind === "end") {
-      if (!message.asked) this.#texts = [];
-      this.#ended(text);
-    } else if (kind === "failed") {
+    else if (kind === "end") this.#ended(text);
+    else if (kind === "failed") {
       this.#python.end();
       this.#prepared = false;
       this.#ended(`Python has stopped. Press Run to begin again. ${text}`);
@@ -307,11 +307,11 @@ class Run extends HTMLElement {
   #question(prompt) {
     const field = make("input", { type: "text" });
     const label = make("label", {}, prompt || "The program asks for a text with input():", " ", field);
+    const texts = this.#texts;
     const form = make("form", { className: "run-bar" }, label, make("button", {}, "Answer"));
     form.onsubmit = (event) => {
       event.preventDefault();
-      this.#texts.push(field.value);
-      this.#run();
+      this.#run([...texts, field.value]);
     };
     this.#asked.append(form);
     field.focus();

@@ -14,6 +14,7 @@ import os
 import sys
 import time
 import warnings
+from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
 
@@ -38,6 +39,8 @@ _pick_points, _animate_chain = canim.plotting.pick_points, canim.plotting.animat
 
 post = answers = output = None
 films, saved = {}, {}  # by figure: its film, and the file that the program saved it in
+original = {}  # by module: its names, which a program may give to something else
+printing, failing = np.get_printoptions(), np.geterr()
 
 
 class Asked(BaseException):
@@ -59,6 +62,9 @@ def begin(to_page):
     canim.plotting.animate_chain = animate_chain
     canim.plotting.weight_sliders = weight_sliders
     warnings.showwarning = _warn
+    for module in (plt, np):
+        names = vars(module).items()
+        original[module] = {name: value for name, value in names if not name.startswith("_")}
 
 
 def run(code, name, given, last):
@@ -74,7 +80,7 @@ def run(code, name, given, last):
     sys.stdout = sys.stderr = output = Output()
     forget()
     post("begin")
-    asked, words = False, "Your program ended"
+    words = "Your program ended"
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("default")
@@ -84,13 +90,13 @@ def run(code, name, given, last):
                 if not isinstance(sys.exception(), MemoryError | Asked):
                     show()
     except Asked as question:
-        asked, words = True, "Your program waits for an answer"
+        words = "Your program waits for an answer"
         post("question", text=str(question))
     except SystemExit as end:
         if isinstance(end.code, str):
             print(end.code)
     except ModuleNotFoundError as error:
-        if not last:
+        if error.name and not last:
             return error.name
         words = _tell(error, path)
     except BaseException as error:
@@ -99,12 +105,21 @@ def run(code, name, given, last):
     for file in sorted(_files().items() - before.items()):
         _send_file(Path(file[0]))
     forget()
-    post("end", text=f"{words} after {time.monotonic() - start:.1f} s.", asked=asked)
+    post("end", text=f"{words} after {time.monotonic() - start:.1f} s.")
     return None
 
 
 def forget():
     """Let nothing of a run be left for the next one, but its files."""
+    for module, names in original.items():
+        for name in vars(module).keys() - names:
+            # A module that was imported stays: it is not imported twice.
+            if not name.startswith("_") and f"{module.__name__}.{name}" not in sys.modules:
+                delattr(module, name)
+        vars(module).update(names)
+    np.set_printoptions(**printing)
+    np.seterr(**failing)
+    np.random.seed()  # noqa: NPY002 - programs that use it begin anywhere, as at home
     plt.close("all")
     mpl.rcdefaults()
     films.clear()
@@ -235,7 +250,7 @@ class Frames(AbstractMovieWriter):
 
 
 def _send_gif(name, path):
-    with Image.open(path) as gif:
+    with suppress(Exception), Image.open(path) as gif:  # a program can write a broken one
         for frame in ImageSequence.Iterator(gif):
             interval = frame.info.get("duration") or 100
             post("frame", _png(frame.convert("RGB")), film=name, interval=interval)
@@ -260,10 +275,10 @@ def _send_file(path):
     shown = {file.resolve() for file in saved.values()}
     if path.suffix == ".gif" and path.resolve() not in shown:
         name = path.name
-        with Image.open(path) as gif:
+        with suppress(Exception), Image.open(path) as gif:
             size = dict(zip(("width", "height"), gif.size))
             post("figure", _png(gif.convert("RGB")), alt=f"Your film {name}", film=name, **size)
-        _send_gif(path.name, path)
+            _send_gif(path.name, path)
     post("file", path.read_bytes(), name=path.name)
 
 

@@ -12,6 +12,7 @@ const folder = (url) => url.href.slice(site.length).match(/^_run\/\w+\//)?.[0] ?
 
 /** @param {Request} request @param {Response} response */
 async function keep(request, response) {
+  if (response.status !== 200) return;
   const cache = await caches.open(NAME);
   await cache.put(request, response);
   const url = new URL(request.url);
@@ -27,15 +28,15 @@ async function keep(request, response) {
 async function answer({ request }) {
   const url = new URL(request.url);
   const fixed = folder(url) !== "" || url.searchParams.has("v");
-  const cache = await caches.open(NAME);
-  const kept = fixed && (await cache.match(request));
+  const find = async () => (await caches.open(NAME)).match(request, { ignoreSearch: !fixed });
+  const kept = fixed && (await find().catch(() => {}));
   if (kept) return kept;
   try {
     const response = await fetch(request);
-    if (response.status === 200) await keep(request, response.clone());
+    await keep(request, response.clone()).catch(() => {}); // without room the page is shown all the same
     return response;
   } catch (error) {
-    const last = await cache.match(request, { ignoreSearch: !fixed });
+    const last = await find().catch(() => {});
     if (last) return last;
     throw error;
   }

@@ -86,7 +86,17 @@ test("a missing page is not kept, and what is not of the site is left alone", as
 test("what the page had loaded before is kept too", async () => {
   network = { [`${SITE}a.html`]: "a", "https://other.org/b.html": "b" };
   let all;
-  on.message({ data: Object.keys(network), waitUntil: (promise) => (all = promise) });
+  on.message({ data: [...Object.keys(network), `${SITE}gone.html`], waitUntil: (promise) => (all = promise) });
   await all;
   assert.deepEqual([...kept.keys()], [`${SITE}a.html`]);
+});
+
+test("a page is shown though nothing can be kept", async (context) => {
+  network = { [`${SITE}a.html?v=1`]: "a" };
+  const full = async () => Promise.reject(new DOMException("full", "QuotaExceededError"));
+  const put = context.mock.method(cache, "put", full);
+  assert.equal(await get("a.html?v=1"), "a");
+  assert.equal(put.mock.callCount(), 1);
+  context.mock.method(caches, "open", full);
+  assert.equal(await get("a.html?v=1"), "a");
 });

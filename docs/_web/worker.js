@@ -41,7 +41,7 @@ async function obey(order) {
   const missing = run(false);
   if (missing) {
     // Something imports it that we cannot see in the program's text.
-    await pyodide.loadPackagesFromImports(`import ${missing}`, silent);
+    await pyodide.loadPackagesFromImports(`import ${missing}`, silent).catch(() => []);
     run(true);
   }
 }

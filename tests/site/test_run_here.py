@@ -137,6 +137,17 @@ def test_stop_ends_an_endless_loop_at_once(used):
     assert "again" in used.run("print('again')")
 
 
+def test_stop_ends_what_waits_to_run_as_well(used):
+    used.write("while True:\n    print('here')")
+    used.click("Run")
+    used.said("here")
+    used.click("Run")
+    used.click("Stop")
+    used.said("Python is ready.")
+    assert used.status.inner_text() == "Python is ready."
+    assert "again" in used.run("print('again')")
+
+
 def test_only_the_students_lines_are_told(used):
     shown = used.run("import numpy as np\n\ndef f():\n    return np.zeros(2) + np.zeros(3)\n\nf()")
     assert "stops in line 4" in shown
@@ -169,6 +180,30 @@ def test_a_run_knows_nothing_of_the_one_before(used):
     assert used.output.locator("img").count() == 0
 
 
+def test_what_a_program_breaks_is_mended_for_the_next(used):
+    used.run(
+        "import matplotlib.pyplot as plt\nimport numpy as np\nplt.title = 'x'\n"
+        "plt.close = np.own = 1\nnp.random.seed(1)\nnp.set_printoptions(precision=2)\n"
+        "import numpy.matlib"
+    )
+    shown = used.run(
+        "import matplotlib.pyplot as plt\nimport numpy as np\nplt.plot([1])\nplt.title('x')\n"
+        "print(hasattr(np, 'own'), np.array([0.1234]), np.matlib.ones(1))"
+    )
+    assert "False [0.1234] [[1.]]" in shown
+    assert "Your program ended" in used.status.inner_text()
+    assert used.output.locator("img").count() == 1
+
+
+WRONG = ["raise ModuleNotFoundError('no')", "open('a.gif', 'w').write('no')", "import nothing"]
+
+
+@pytest.mark.parametrize("program", WRONG)
+def test_a_program_that_goes_wrong_ends_like_others(used, program):
+    used.run(program)
+    assert used.status.inner_text().startswith("Your program")
+
+
 def test_a_second_run_comes_after_the_first(used):
     used.write("import time\ntime.sleep(0.3)\nprint('slow')")
     used.click("Run")
@@ -186,6 +221,12 @@ def test_a_program_that_asks_gets_an_answer(used):
     used.page.get_by_label("Who are you?").fill("Ada")
     used.click("Answer")
     used.said("Hello Ada")
+    used.click("Run")
+    used.page.get_by_label("Who are you?").wait_for()
+    assert "new" in used.run("print('new')")
+    used.write("print('Hello', input('Who is there? '))")
+    used.click("Run")
+    used.page.get_by_label("Who is there?").wait_for()
 
 
 def test_a_module_of_the_course_comes_when_it_is_imported(used):
