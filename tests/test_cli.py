@@ -290,6 +290,14 @@ def test_a_file_that_the_system_does_not_give_is_refused(monkeypatch, capsys):
     assert "mine.py cannot be read: Permission denied." in capsys.readouterr().err
 
 
+def test_a_program_cannot_steer_the_terminal(capsys):
+    steer = "\\x1b[2J\\x9b1m\\x07"
+    assert main(["check", write("mine.py", DONE + f"\nraise ValueError('a{steer}b')\n")]) == 1
+    assert "ValueError: a?[2J?1m?b" in capsys.readouterr().out
+    assert main(["check", write("mine.py", "x = '\x1b[2J' y")]) == 2
+    assert "x = '?[2J' y" in capsys.readouterr().err
+
+
 def test_a_value_error_of_the_parser_is_told(monkeypatch, capsys):
     def refuse(*args):
         raise ValueError("source code string cannot contain null bytes")

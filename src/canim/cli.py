@@ -11,7 +11,7 @@ from pathlib import Path
 
 from canim import checks
 from canim.checks.guard import Limits
-from canim.checks.report import printable
+from canim.checks.report import harmless, printable
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -63,7 +63,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _start(asked.task)
     limits = Limits(asked.time, asked.memory)
     if asked.file.is_dir():
+        for option in ("figure", "hint"):
+            if getattr(asked, option):
+                return _refuse(f"--{option} is for one file, but {asked.file} is a folder.")
         return _check_folder(asked.file, asked.task, limits, asked.jobs, asked.report)
+    if asked.report:
+        return _refuse(f"--report is for a folder, but {asked.file} is none.")
     return _check(asked.file, asked.task, asked.hint, limits, asked.figure)
 
 
@@ -113,6 +118,11 @@ def _check_folder(
 
     if not any(folder.find(path)):
         return _refuse(f"{path} holds no .py and no .ipynb file.")
+    if report:
+        try:
+            folder.make_room(report)
+        except OSError as error:
+            return _refuse(f"{report} cannot be written: {error.strerror}.")
     if jobs != 1 and not folder.can_share():
         print(folder.ONE_BY_ONE, file=sys.stderr)
     rows = folder.check_folder(path, task=task, limits=limits, jobs=jobs, progress=_progress)
@@ -167,5 +177,5 @@ def amount(text: str) -> float:
 
 
 def _refuse(sentence: str) -> int:
-    print(sentence, file=sys.stderr)
+    print(harmless(sentence), file=sys.stderr)
     return 2

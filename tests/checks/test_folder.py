@@ -2,6 +2,7 @@
 
 import csv
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -210,14 +211,47 @@ def test_somebody_who_looks_on_sees_how_far_it_is(handed_in, alone, monkeypatch,
     ("arguments", "words"),
     [
         (["empty"], "empty holds no .py and no .ipynb file."),
-        (["ann", "--jobs", "1", "--report", "no/where.csv"], "cannot be written: No such file"),
+        (["ann", "--report", "no/where.csv"], "cannot be written: No such file"),
+        (["ann", "--report", "folder.csv"], "folder.csv cannot be written: Is a directory."),
+        (["ann", "--figure", "x.png"], "--figure is for one file, but ann is a folder."),
+        (["ann", "--hint"], "--hint is for one file, but ann is a folder."),
+        (["ann/task_1_1.py", "--report", "x.csv"], "--report is for a folder, but"),
     ],
 )
 def test_what_cannot_be_done_is_told(handed_in, arguments, words, monkeypatch, capsys):
     monkeypatch.chdir(handed_in)
     (handed_in / "empty").mkdir()
+    (handed_in / "folder.csv").mkdir()
+    monkeypatch.setattr(folder, "check_folder", None)  # nothing is checked before
     assert main(["check", *arguments]) == 2
     assert words in capsys.readouterr().err
+
+
+def test_a_table_that_can_no_longer_be_written_is_told(handed_in, monkeypatch, capsys):
+    def fail(rows, path):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.chdir(handed_in)
+    monkeypatch.setattr(folder, "check_folder", lambda *args, **options: [folder._row("x.py")])
+    monkeypatch.setattr(folder, "write", fail)
+    assert main(["check", "ann", "--jobs", "1", "--report", "x.csv"]) == 2
+    assert "x.csv cannot be written: No space left on device." in capsys.readouterr().err
+    assert not list(handed_in.glob("*x.csv*"))
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no named pipes in folders")
+def test_what_is_no_regular_file_is_passed_over(tmp_path):
+    from canim.checks import file
+
+    (tmp_path / "from").mkdir()
+    program = tmp_path / "from" / "task_1_1.py"
+    program.write_text("")
+    os.mkfifo(tmp_path / "from" / "pipe.py")
+    os.mkfifo(tmp_path / "from" / "pipe.txt")
+    (tmp_path / "from" / "device.txt").symlink_to("/dev/zero")
+    assert list(folder.find(tmp_path)) == [program]
+    file.copy_beside(program, [("pipe", "x")], tmp_path / "to")
+    assert [path.name for path in (tmp_path / "to").iterdir()] == ["task_1_1.py"]
 
 
 @pytest.mark.parametrize(
@@ -236,9 +270,9 @@ def test_many_and_large_files_beside_a_program_stay_where_they_are(tmp_path, mon
 
     monkeypatch.setattr(file, "MOST_BESIDE", 10)
     monkeypatch.setattr(file, "MOST_FILES_BESIDE", 3)
-    for name in ("a/1.txt", "a/2.txt", "b/3.txt"):
+    for name in ("a/1.txt", "a/2.txt", "b/3.txt", "c/4.txt", "c/5.txt"):
         (tmp_path / "from" / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / "from" / name).write_text("1234")
+        (tmp_path / "from" / name).write_text("1234" if name < "c" else "1")
     (tmp_path / "from" / "b.txt").write_text("")
 
     def copy(source, target):
@@ -251,7 +285,7 @@ def test_many_and_large_files_beside_a_program_stay_where_they_are(tmp_path, mon
     program.write_text("")
     file.copy_beside(program, [("", "x")], tmp_path / "to")
     copied = {p.relative_to(tmp_path / "to").as_posix() for p in (tmp_path / "to").rglob("*.*")}
-    assert copied == {"x.py", "a/1.txt", "a/2.txt"}
+    assert copied == {"x.py", "a/1.txt", "a/2.txt", "c/4.txt"}
 
 
 def test_the_page_for_teachers_shows_how_to_use_a_cluster(root, handed_in, tmp_path):

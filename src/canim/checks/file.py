@@ -133,13 +133,17 @@ def copy_beside(path: Path, sources: list[tuple[str, str]], target: Path) -> Non
     room, count = MOST_BESIDE, 0
     for entry in _beside(path, text):
         try:
-            room -= entry.stat().st_size
-            count += 1
-            if room < 0 or count > MOST_FILES_BESIDE:
-                return
+            size = entry.stat().st_size
+            # Copying a pipe or a device may never end.
+            if not entry.is_file() or size > room:
+                continue
             copied = target / entry.relative_to(path.parent)
             copied.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(entry, copied)
+            room -= size
+            count += 1
+            if count == MOST_FILES_BESIDE:
+                return
         except OSError:
             continue  # the program will say that it misses this file, if it does
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import json
 import os
 import threading
@@ -80,8 +81,10 @@ def find(folder: Path) -> Iterator[Path]:
             if not name.startswith((".", "__")) and name not in _PASSED_OVER
         )
         for name in sorted(names):
-            if Path(name).suffix in SUFFIXES and not name.startswith("."):
-                yield Path(place, name)
+            path = Path(place, name)
+            # Reading from a pipe or a device may never end.
+            if path.suffix in SUFFIXES and not name.startswith(".") and path.is_file():
+                yield path
 
 
 def can_share() -> bool:
@@ -192,6 +195,14 @@ def write(rows: list[Row], path: Path) -> None:
         unfinished.replace(path)  # what was there before stays until the new table is whole
     finally:
         unfinished.unlink(missing_ok=True)
+
+
+def make_room(path: Path) -> None:
+    """Raise OSError if `write` could not write there, before anything is checked."""
+    if path.is_dir():
+        raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR))
+    _unfinished(path).touch()
+    _unfinished(path).unlink()
 
 
 def _unfinished(path: Path) -> Path:

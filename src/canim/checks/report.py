@@ -242,6 +242,7 @@ def show(report: Report) -> None:
 
 def printable(text: str) -> str:
     """Return `text` as the terminal can show it."""
+    text = harmless(text)
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     try:
         text.encode(encoding)
@@ -250,6 +251,11 @@ def printable(text: str) -> str:
             text = text.replace(mark, plain)
         text = text.encode(encoding, "replace").decode(encoding)
     return text
+
+
+def harmless(text: str) -> str:
+    """Return `text` without what would move the cursor or change the colours of a terminal."""
+    return re.sub(r"[\x00-\x08\x0b-\x1f\x7f-\x9f]", "?", text)
 
 
 def in_notebook() -> bool:
