@@ -1,6 +1,5 @@
 // Bundles scripts with what they take from npm: node bundle.mjs JOB, a JSON text that names the
-// entries, the folder to write to, the format and what is known as RUN.
-// Prints the packages that went in.
+// entries, the folder, the format and what is known as RUN. Prints the packages that went in.
 import { build } from "esbuild";
 
 const job = JSON.parse(process.argv[2]);
