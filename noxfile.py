@@ -187,7 +187,8 @@ def lint(session):
     with session.chdir("docs"):
         session.run(*NODE, "node_modules/@biomejs/biome/bin/biome", "ci", "--error-on-warnings")
         session.run(*NODE, "node_modules/typescript/bin/tsc")
-        session.run(*NODE, "--test", "_web/*.test.*js")
+        covered = ["--experimental-test-coverage", "--test-coverage-include=_web/*.js"]
+        session.run(*NODE, "--test", *covered, "_web/*.test.mjs")
 
 
 @nox.session
