@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import re
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -63,6 +64,10 @@ def test_names_with_spaces_and_accents(tmp_path, name):
         "\ufeff" + SQUARE,
         SQUARE.replace("f 1 2 3 4", "f  1\t2 3  4 "),
         SQUARE.replace("f 1 2 3 4", "\tf 1 2 \\\n 3 4"),
+        SQUARE.replace("v 2 2 0\n", "v 2 \\\n 2 \\\n 0\n"),
+        # Only vertices and faces go on in the next line.
+        SQUARE.replace("v 2 2 0", "# made in C:\\faces\\\ng lips\\\nusemtl a \\\nv 2 2 0 # \\"),
+        SQUARE.replace("f 1", "vt 0 0\\\n 1\no C:\\\nf 1"),
         SQUARE.replace("f 1 2 3 4", "f -4 -3 -2 -1"),
         SQUARE.replace("f 1 2 3 4", "f 1 2 -2\nf 1 3 4"),
         SQUARE.replace("f 1 2 3 4", "f 1/1 2/2 3/1 4/2"),
@@ -73,7 +78,7 @@ def test_names_with_spaces_and_accents(tmp_path, name):
             "4\n", "4 # 4\n"
         ),
         SQUARE.replace("v 2 2 0", "v 2 2 0 1"),
-        SQUARE.replace("v 2 2 0", "v +2.0 2e0 -0. 1 .5 0"),
+        SQUARE.replace("v 2 2 0", "v +2.0 2e0 -0. 1"),
         # A vertex that comes after the first face: what is negative counts from its line.
         "v 0 0 0\nv 2 0 0\nv 2 2 0\nf -3 -2 -1\nv 0 2 0\nf 1 3 4\n",
     ],
@@ -99,6 +104,10 @@ def test_bytes_that_are_no_text_in_a_comment(tmp_path):
         ("255 51 0", (1, 0.2, 0)),
         ("-0.001 0.5 1", (0, 0.5, 1)),
         ("0 0 0 1", (0, 0, 0)),
+        ("1.0000001 0.5 0.25", (1, 0.5, 0.25)),
+        ("1.5 0.5 0", (1, 0.5, 0)),
+        ("2 0.5 0", (1, 0.5, 0)),
+        ("17 0 0", (17 / 255, 0, 0)),
     ],
 )
 def test_colors(tmp_path, written, read):
@@ -106,6 +115,43 @@ def test_colors(tmp_path, written, read):
     face = load_expressions(folder(tmp_path, neutral=coloured, smile=RAISED))
     assert np.array_equal(face.colors, [read] * 4)
     assert np.array_equal(face.neutral, CORNERS)
+
+
+@pytest.mark.parametrize("wrong", ["nan 0 0", "0 inf 0", "0 0", ""])
+def test_a_vertex_without_a_colour_is_told_and_none_is_taken(tmp_path, wrong):
+    coloured = re.sub(r"(v.*)", r"\1 0.5 0.5 0.5", SQUARE)
+    neutral = coloured.replace("v 2 2 0 0.5 0.5 0.5", f"v 2 2 0 {wrong}")
+    with pytest.warns(UserWarning, match=r"^folder: neutral\.obj, vertex 3, has no colour") as told:
+        face = load_expressions(folder(tmp_path, neutral=neutral, smile=RAISED))
+    assert told[0].filename == __file__
+    assert face.colors is None
+    assert np.array_equal(face.neutral, CORNERS)
+    # Those of an expression are not asked for.
+    face = load_expressions(folder(tmp_path, neutral=coloured, smile=neutral))
+    assert np.array_equal(face.expressions["smile"], CORNERS)
+    assert (face.colors == 0.5).all()
+
+
+def test_an_expression_may_leave_the_faces_to_the_neutral_one(tmp_path):
+    vertices = RAISED.partition("f")[0]
+    face = load_expressions(folder(tmp_path, neutral=SQUARE, smile=vertices))
+    assert face.expressions["smile"][2].tolist() == [2, 2, 1.5]
+    assert [tuple(corners) for corners in face.faces] == TRIANGLES
+    refuses(
+        folder(tmp_path, smile=vertices + "v 1 1 1\n"),
+        r"^folder: smile\.obj has 5 vertices and neutral\.obj 4;",
+    )
+
+
+@pytest.mark.parametrize("name", ["Neutral.obj", "NEUTRAL.OBJ", "neutral.Obj"])
+def test_capitals_of_the_neutral_face_do_not_matter(tmp_path, name):
+    path = folder(tmp_path, neutral=SQUARE, smile=RAISED)
+    (path / "neutral.obj").rename(path / name)
+    face = load_expressions(path)
+    assert list(face.expressions) == ["smile"]
+    assert np.array_equal(face.neutral, CORNERS)
+    (path / "smile.obj").unlink()
+    refuses(path, rf"holds no OBJ file beside {re.escape(name)};")
 
 
 def test_as_trimesh_reads(tmp_path):
@@ -189,6 +235,11 @@ def test_vertex_zero_is_none_though_more_vertices_follow(tmp_path):
     refuses(folder(tmp_path, neutral=text, smile=text), r"neutral\.obj, line 4, must be f and")
 
 
+def test_lines_keep_their_numbers_behind_one_that_is_broken(tmp_path):
+    broken = SQUARE.replace("v 2 0 0", "v 2 \\\n 0 \\\n 0").replace("v 0 2 0", "v 0 x 0")
+    refuses(folder(tmp_path, neutral=SQUARE, smile=broken), r"smile\.obj, line 6, must be v x y z")
+
+
 @pytest.mark.parametrize(
     ("text", "what"),
     [
@@ -245,8 +296,38 @@ def test_other_faces(tmp_path, first, other):
 
 def test_folders_without_faces(tmp_path):
     refuses(folder(tmp_path), r"^folder: .* holds no neutral\.obj; it needs neutral\.obj and one")
-    refuses(folder(tmp_path, smile=RAISED), r"^folder: .* holds no neutral\.obj;")
+    refuses(folder(tmp_path, smile=RAISED), r"^folder: .* holds no neutral\.obj; .*expression\.$")
     refuses(folder(tmp_path / "b", neutral=SQUARE), r"holds no OBJ file beside neutral\.obj;")
+
+
+@pytest.mark.parametrize(
+    ("first", "second"), [("smile.OBJ", "smile.obj"), ("NEUTRAL.obj", "neutral.obj")]
+)
+def test_two_files_of_one_name_are_named(tmp_path, monkeypatch, first, second):
+    path = folder(tmp_path, neutral=SQUARE, other=RAISED)
+    # Not every system keeps two such files apart.
+    there = [path / "neutral.obj", path / "other.obj"]
+    there += [path / name for name in (first, second) if name != "neutral.obj"]
+    monkeypatch.setattr(Path, "iterdir", lambda folder: iter(there))
+    refuses(path, rf"^folder: .* holds both {first} and {second}; remove or rename one\.$")
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "generic_neutral_mesh.obj",
+        "Neutral_pose.OBJ",
+        "neutral.obj.txt",
+        "neutral.ply",
+        "netural.obj",
+        "natural.obj",
+    ],
+)
+def test_what_looks_like_the_neutral_face_is_named(tmp_path, name):
+    path = folder(tmp_path, smile=RAISED)
+    (path / name).write_text(SQUARE, encoding="utf-8")
+    words = rf"If {re.escape(name)} is the neutral face, save it as neutral\.obj\.$"
+    refuses(path, rf"^folder: .* holds no neutral\.obj; .*expression\. {words}")
 
 
 def test_folders_that_are_none(tmp_path):

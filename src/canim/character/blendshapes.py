@@ -6,6 +6,7 @@ import difflib
 import math
 import os
 import re
+import warnings
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -26,6 +27,11 @@ Mixed = NDArray[np.float32 | np.float64]
 _BLOCK = 65536
 
 _FIRST_FACE = re.compile(r"\n[ \t]*f\b")
+# A vertex or a face that goes on in the next line. Names and comments may end in a backslash.
+_CONTINUED = re.compile(r"\n[ \t]*[vf][ \t][^\n#\\]*(?:\\\n[^\n#\\]*)+")
+
+# Colours that some programs count up to 255; what is a little above 1 was rounded.
+_COUNTED = 16
 
 
 def global_blendshape(shapes: ArrayLike, weights: ArrayLike) -> Mixed:
@@ -287,13 +293,15 @@ def load_expressions(folder: str | os.PathLike[str]) -> Face:
     ----------
     folder : str or path
         A folder with ``neutral.obj`` and one more OBJ file for each expression, all of one
-        topology: the same vertices in the same order, moved, and the same faces.
+        topology: the same vertices in the same order, moved, and the same faces. An expression
+        may come without faces. Capitals in ``neutral.obj`` and ``.obj`` do not matter.
 
     Returns
     -------
     Face
         The expressions by the names of their files, in alphabetical order. Faces with four
         and more corners are split into triangles. The colours are those of ``neutral.obj``.
+        Unit and axes are those of the files.
 
     Raises
     ------
@@ -303,13 +311,22 @@ def load_expressions(folder: str | os.PathLike[str]) -> Face:
         If `folder` is not the name of a folder.
     ValueError
         If ``neutral.obj`` or every other OBJ file is missing, a file is damaged, or two files
-        differ in topology; the message names them.
+        have one name or differ in topology; the message names them.
+
+    Warns
+    -----
+    UserWarning
+        If only some vertices of ``neutral.obj`` have a colour; then the face has none.
 
     Notes
     -----
     Vertices stay as they are in the file: none is merged or reordered. Of each file the
     vertices (``v x y z``, with colours ``v x y z r g b``) and faces (``f``) are read; texture
-    coordinates, normals, materials and groups are passed over.
+    coordinates, normals, materials and groups are passed over. Colours go up to 1, or up to
+    255 where one is above 16.
+
+    OBJ files do not say which way is up. `canim.plotting` draws faces with y up and seen from
+    z. Where z is up, ``vertices[:, [0, 2, 1]] * (1, 1, -1)`` turns a shape.
 
     Theory: :ref:`Task 3.4 <task-3-4>`.
 
@@ -333,19 +350,7 @@ def load_expressions(folder: str | os.PathLike[str]) -> Face:
     """
     if not isinstance(folder, str | os.PathLike):
         raise TypeError(f"folder must be the name of a folder, but is {folder!r}.")
-    # A dot begins the names of files that a system keeps for itself.
-    files = {
-        path.stem: path
-        for path in sorted(Path(folder).iterdir())
-        if path.suffix.lower() == ".obj" and not path.name.startswith(".")
-    }
-    first = files.pop("neutral", None)
-    if first is None or not files:
-        lacks = "no neutral.obj" if first is None else "no OBJ file beside neutral.obj"
-        raise ValueError(
-            f"folder: {os.fspath(folder)} holds {lacks}; "
-            f"it needs neutral.obj and one more OBJ file for each expression."
-        )
+    first, files = _obj_files(Path(folder))
     neutral = _read_obj(first)
     expressions = {}
     for name, path in files.items():
@@ -364,6 +369,37 @@ def load_expressions(folder: str | os.PathLike[str]) -> Face:
     return Face(neutral.vertices, expressions, neutral.triangles, neutral.colors)
 
 
+def _obj_files(folder: Path) -> tuple[Path, dict[str, Path]]:
+    """Return the file of the neutral face, and those of the expressions by name."""
+    # A dot begins the names of files that a system keeps for itself.
+    there = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
+    files: dict[str, Path] = {}
+    for path in there:
+        if path.suffix.lower() == ".obj":
+            name = "neutral" if path.stem.lower() == "neutral" else path.stem
+            if name in files:
+                raise ValueError(
+                    f"folder: {folder} holds both {files[name].name} and {path.name}; "
+                    f"remove or rename one."
+                )
+            files[name] = path
+    first = files.pop("neutral", None)
+    needs = "it needs neutral.obj and one more OBJ file for each expression"
+    if first is None:
+        similar = [path.name for path in there if _looks_neutral(path.name)]
+        names = " or ".join(similar[:3])
+        rename = f" If {names} is the neutral face, save it as neutral.obj." if similar else ""
+        raise ValueError(f"folder: {folder} holds no neutral.obj; {needs}.{rename}")
+    if not files:
+        raise ValueError(f"folder: {folder} holds no OBJ file beside {first.name}; {needs}.")
+    return first, files
+
+
+def _looks_neutral(name: str) -> bool:
+    lower = name.lower()
+    return "neutral" in lower or bool(difflib.get_close_matches("neutral.obj", [lower], cutoff=0.8))
+
+
 class _Mesh(NamedTuple):
     """What an OBJ file holds; `tail` is its text from the first face on, if only faces follow."""
 
@@ -375,7 +411,9 @@ class _Mesh(NamedTuple):
 
 def _read_obj(path: Path, known: _Mesh | None = None) -> _Mesh:
     """Read an OBJ file; faces written as those of `known` are not read again."""
-    text = "\n" + path.read_text(encoding="utf-8-sig", errors="replace").replace("\\\n", " ")
+    text = "\n" + path.read_text(encoding="utf-8-sig", errors="replace")
+    if "\\\n" in text:
+        text = _CONTINUED.sub(_in_one_line, text)
     first = _FIRST_FACE.search(text)
     tail = text[first.start() :] if first else ""
     same = known is not None and tail == known.tail
@@ -388,23 +426,45 @@ def _read_obj(path: Path, known: _Mesh | None = None) -> _Mesh:
                 rows.append([*map(float, values)])
             except ValueError:
                 raise _broken(path, number, line, "v x y z") from None
-            if len(values) < 3 or not math.isfinite(sum(rows[-1])):
+            if len(values) < 3 or not math.isfinite(sum(rows[-1][:3])):
                 raise _broken(path, number, line, "v x y z")
         elif kind == "f":
             polygons.append((number, len(rows), values))
-    if not rows or not (polygons or same):
+    if not rows or (known is None and not polygons):
         missing = "faces" if rows else "vertices"
         raise ValueError(f"folder: {path.name} holds no {missing}, it is no mesh.")
-    with_colors = min(map(len, rows)) >= 6
-    table = np.array([row[: 6 if with_colors else 3] for row in rows])
-    colors = None
-    if with_colors:
-        # Some programs count colours up to 255.
-        colors = np.clip(table[:, 3:] / (255 if table[:, 3:].max() > 1 else 1), 0, 1)
-    if known is not None and same:
-        return _Mesh(table[:, :3], colors, known.triangles, tail)
-    triangles = _split(path, polygons, len(rows))
-    return _Mesh(table[:, :3], colors, triangles, tail if polygons[0][1] == len(rows) else None)
+    vertices = np.array([row[:3] for row in rows])
+    if known is not None:
+        triangles = _split(path, polygons, len(rows)) if polygons else known.triangles
+        return _Mesh(vertices, None, triangles, None)
+    only_faces_follow = polygons[0][1] == len(rows)
+    return _Mesh(
+        vertices,
+        _read_colors(path, rows),
+        _split(path, polygons, len(rows)),
+        tail if only_faces_follow else None,
+    )
+
+
+def _in_one_line(found: re.Match[str]) -> str:
+    """Join the lines; empty ones take their place, so that lines keep their numbers."""
+    return found[0].replace("\\\n", " ") + "\n" * found[0].count("\\\n")
+
+
+def _read_colors(path: Path, rows: list[list[float]]) -> Floats | None:
+    """Return what stands behind x, y and z as colours from 0 to 1, if every vertex has one."""
+    has_color = [len(row) >= 6 and math.isfinite(sum(row[3:6])) for row in rows]
+    if not all(has_color):
+        if max(map(len, rows)) >= 6:
+            warnings.warn(
+                f"folder: {path.name}, vertex {has_color.index(False) + 1}, has no colour red, "
+                f"green, blue, so the face is read without colours.",
+                UserWarning,
+                stacklevel=4,
+            )
+        return None
+    colors = np.array([row[3:6] for row in rows])
+    return np.clip(colors / (255 if colors.max() > _COUNTED else 1), 0, 1)
 
 
 def _split(path: Path, polygons: list[tuple[int, int, list[str]]], count: int) -> Integers:
