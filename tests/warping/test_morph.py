@@ -310,6 +310,44 @@ def test_gif_holds_the_frame_rate(tmp_path, fps, duration):
     assert read_gif(tmp_path / "film.gif")[1]["duration"] == duration
 
 
+@pytest.mark.parametrize(
+    ("frame", "fps", "most", "more"),
+    [
+        (np.zeros((4, 4), dtype=np.uint8), 0.01, 6, 7),
+        (np.zeros((4, 4), dtype=np.uint8), 0.1, 65, 66),
+        (np.zeros((4, 4), dtype=np.uint8), 0.2, 131, 132),
+        # The frames of a photograph are equal as long as they share a palette.
+        (photographs(1, 20)[0], 0.01, 6, 14),
+    ],
+)
+def test_gif_holds_a_still_picture_as_long_as_it_can(tmp_path, frame, fps, most, more):
+    film = tmp_path / "film.gif"
+    save_gif(film, [frame] * most, fps)
+    assert read_gif(film)[1]["duration"] == most * 1000 / fps
+    film.unlink()
+    words = rf"^fps: {more} equal frames in a row stay for .* s at fps={fps}, .* 655\.35 s"
+    with pytest.raises(ValueError, match=words):
+        save_gif(film, [frame] * more, fps)
+    assert not film.exists()
+
+
+def test_gif_may_last_longer_than_one_picture_in_it(tmp_path):
+    frames = np.random.default_rng(0).integers(0, 256, (9, 4, 4), dtype=np.uint8)
+    save_gif(tmp_path / "film.gif", list(frames), 0.01)
+    assert len(read_gif(tmp_path / "film.gif")[0]) == 9
+
+
+@pytest.mark.parametrize("shape", [(65536, 1), (1, 65536)])
+def test_gif_has_a_largest_side(tmp_path, shape):
+    frames = np.zeros((2, *shape), dtype=np.uint8)
+    with pytest.raises(ValueError, match=r"^frames\[0\] has 65536 pixels on a side, .* 65535\.$"):
+        save_gif(tmp_path / "film.gif", frames)
+    save_gif(
+        tmp_path / "film.gif", [frame[1:] if shape[1] == 1 else frame[:, 1:] for frame in frames]
+    )
+    assert max(read_gif(tmp_path / "film.gif")[0][0].shape) == 65535
+
+
 def test_gif_may_be_one_pixel_or_one_column(tmp_path):
     for shape in ((1, 1), (1, 1, 3), (7, 1, 3), (1, 7, 4)):
         frames = np.random.default_rng(0).integers(0, 256, (3, *shape), dtype=np.uint8)

@@ -6,7 +6,7 @@ import contextlib
 import io
 import os
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
+from itertools import groupby, pairwise
 from pathlib import Path
 
 import numpy as np
@@ -35,6 +35,8 @@ __all__ = ["morph", "morph_frames", "save_gif"]
 # Up to so many photographs of a GIF share a palette, made from so many of their pixels.
 _RUN = 15
 _SAMPLE = 3_000
+# A GIF counts pixels, and hundredths of a second, with two bytes.
+_MOST = 65_535
 
 
 def morph(
@@ -199,7 +201,8 @@ def save_gif(path: str | os.PathLike[str], frames: Iterable[ArrayLike], fps: flo
     TypeError
         If an argument is of the wrong type, or a frame does not hold uint8 numbers.
     ValueError
-        If there is no frame, a frame has a wrong shape, or `fps` is out of range.
+        If there is no frame, a frame has a wrong shape or more than 65535 pixels on a side,
+        `fps` is out of range, or equal frames in a row stay for more than 655.35 s.
 
     Notes
     -----
@@ -232,13 +235,17 @@ def save_gif(path: str | os.PathLike[str], frames: Iterable[ArrayLike], fps: flo
         raise ValueError(f"fps must be one number from 0.01 to 50, but is {fps!r}.")
     images = _checked_frames(frames)
     drawn = images[0].ndim == 2 or _is_drawing(images)
-    first, *others = map(Pictures.fromarray, images) if drawn else _with_shared_palettes(images)
+    pictures = [*map(Pictures.fromarray, images)] if drawn else _with_shared_palettes(images)
+    delay = round(100 / float(rate))
+    if delay * len(pictures) > _MOST:
+        _check_stills(pictures, delay, fps)
+    first, *others = pictures
     film = io.BytesIO()
     first.save(
         *(film, "GIF"),
         save_all=True,
         append_images=others,
-        duration=10 * round(100 / float(rate)),
+        duration=10 * delay,
         loop=0,
         optimize=drawn,
         interlace=False,
@@ -333,6 +340,9 @@ def _checked_frames(frames: Iterable[ArrayLike]) -> list[Image]:
     if not images:
         raise ValueError("frames must hold one image or more, but is empty.")
     for i, image in enumerate(images):
+        side = max(image.shape[:2])
+        if side > _MOST:
+            raise ValueError(f"frames[{i}] has {side} pixels on a side, but a GIF at most {_MOST}.")
         if image.dtype != np.uint8:
             raise TypeError(f"frames[{i}] must be of type uint8, but is of type {image.dtype}.")
         if image.shape != images[0].shape:
@@ -342,6 +352,18 @@ def _checked_frames(frames: Iterable[ArrayLike]) -> list[Image]:
     if images[0].shape[2:] == (4,):
         return [_on_white(image) for image in images]
     return images
+
+
+def _check_stills(pictures: list[Pictures.Image], delay: int, fps: float) -> None:
+    """Refuse equal frames in a row that stay too long: Pillow makes one of them."""
+    runs = groupby(picture.convert("RGB").tobytes() for picture in pictures)
+    count = max(sum(1 for _ in run) for _, run in runs)
+    if count * delay > _MOST:
+        raise ValueError(
+            f"fps: {count} equal frames in a row stay for {count * delay / 100:g} s at "
+            f"fps={fps!r}, but a GIF holds a picture for at most {_MOST / 100} s. Take a larger "
+            f"fps or fewer of these frames."
+        )
 
 
 def _on_white(image: Image) -> Image:
