@@ -7,6 +7,7 @@ import json
 import re
 import runpy
 import warnings
+import zlib
 from importlib import metadata, resources
 
 import numpy as np
@@ -146,7 +147,47 @@ def test_read_image_turns_photographs_upright(tmp_path):
 @pytest.mark.parametrize("dtype", [np.uint16, np.int32, np.float32])
 def test_read_image_refuses_deep_pictures(tmp_path, dtype):
     path = save(tmp_path / "deep.tif", np.full((4, 4), 1000, dtype=dtype))
-    with pytest.raises(ValueError, match=r"^path: .*deep\.tif holds more than 8 bits a colour"):
+    with pytest.raises(ValueError, match=r"^path: .*deep\.tif holds greys of more than 8 bits"):
+        read_image(path)
+
+
+def test_read_image_reads_colours_of_16_bits(tmp_path):
+    # Pillow writes none: one row of two pixels, (0, 128, 255) and (255, 1, 16) in the high bytes.
+    row = b"\0" + bytes([0, 0, 128, 7, 255, 255, 255, 0, 1, 2, 16, 250])
+    header = (2).to_bytes(4) + (1).to_bytes(4) + bytes([16, 2, 0, 0, 0])
+    chunks = [(b"IHDR", header), (b"IDAT", zlib.compress(row)), (b"IEND", b"")]
+    (tmp_path / "deep.png").write_bytes(
+        b"\x89PNG\r\n\x1a\n"
+        + b"".join(
+            len(data).to_bytes(4) + name + data + zlib.crc32(name + data).to_bytes(4)
+            for name, data in chunks
+        )
+    )
+    assert read_image(tmp_path / "deep.png").tolist() == [[[0, 128, 255], [255, 1, 16]]]
+
+
+@pytest.mark.parametrize(
+    ("head", "what"),
+    [
+        (b"\0\0\0\x18ftypheic\0\0\0\0mif1heic", "is a HEIC photograph, as phones make them"),
+        (b"\0\0\0\x24ftypmif1\0\0\0\0mif1heix", "is a HEIC photograph"),
+        (b"\0\0\0\x1cftyphevc\0\0\0\0", "is a HEIC photograph"),
+        (b"\0\0\0\x20ftypavif\0\0\0\0", "is an AVIF picture"),
+        (b"\0\0\0\x14ftypqt  \0\0\0\0", "is a film"),
+        (b"\0\0\0\x20ftypisom\0\0\0\0", "is a film"),
+        (b"\xff\x0a\xfa\x1f", "is a JPEG XL picture"),
+        (b"\0\0\0\x0cJXL \r\n\x87\n", "is a JPEG XL picture"),
+        (b"%PDF-1.7\n", "is a PDF document"),
+        (b'<?xml version="1.0"?>\n<!-- a -->\n<svg xmlns="x">', "is an SVG drawing"),
+        (b"<html>a page</html>", "cannot be read as a picture"),
+        (b"", "cannot be read as a picture"),
+    ],
+)
+def test_read_image_says_what_to_do_with_what_it_does_not_read(tmp_path, head, what):
+    path = tmp_path / "photo.jpg"  # Who sends a file may give it a name that is not true.
+    path.write_bytes(head)
+    ending = "Open it in a program that shows it, and save it as JPEG or PNG."
+    with pytest.raises(ValueError, match=rf"^path: .*photo\.jpg {what}.*\. {ending}$"):
         read_image(path)
 
 

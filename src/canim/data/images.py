@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from importlib import resources
 from typing import Any, NamedTuple
 
@@ -25,6 +26,15 @@ _TOY = {
     "toy_a": [(78, 73), (78, 186), (147, 186)],
     "toy_b": [(120, 25), (157, 139), (218, 47)],
 }
+# How files begin that Pillow does not read, from which byte on, and what they are.
+_NO_PICTURE_HERE = [
+    (4, rb"ftyp(hei|hev|mif1|msf1)", "a HEIC photograph, as phones make them"),
+    (4, rb"ftyp(avif|avis)", "an AVIF picture"),
+    (4, rb"ftyp|moov", "a film"),
+    (0, rb"\xff\x0a|\0\0\0\x0cJXL ", "a JPEG XL picture"),
+    (0, rb"%PDF", "a PDF document"),
+    (0, rb"\s*(<\?xml[^>]*>\s*)?(<!--.*?-->\s*|<!DOCTYPE[^>]*>\s*)*<svg", "an SVG drawing"),
+]
 _GROUND = (243, 243, 240)
 _GREEN = (0, 158, 115)
 _ORANGE = (230, 159, 0)
@@ -173,7 +183,8 @@ def read_image(path: str | os.PathLike[str]) -> Bytes:
     TypeError
         If `path` is not the name of a file.
     ValueError
-        If the file is damaged, is no picture, or holds more than 8 bits a colour.
+        If the file is damaged, is no picture or one that Pillow does not read, such as a HEIC
+        photograph, or holds greys of more than 8 bits. Colours of 16 bits are read as 8.
 
     Examples
     --------
@@ -194,13 +205,26 @@ def read_image(path: str | os.PathLike[str]) -> Bytes:
                 deep = upright.mode[0] in "IF"
                 colours = upright.convert("RGBA")
         except Exception as error:  # Damaged files make Pillow raise errors of many kinds.
-            raise ValueError(f"path: {os.fspath(path)} cannot be read as a picture.") from error
+            file.seek(0)
+            kind = _kind(file.read(1024))
+            raise ValueError(
+                f"path: {os.fspath(path)} {kind}. "
+                f"Open it in a program that shows it, and save it as JPEG or PNG."
+            ) from error
     if deep:
         raise ValueError(
-            f"path: {os.fspath(path)} holds more than 8 bits a colour; save it with 8."
+            f"path: {os.fspath(path)} holds greys of more than 8 bits; save it with 8."
         )
     white = Image.new("RGBA", colours.size, "white")
     return np.array(Image.alpha_composite(white, colours).convert("RGB"))
+
+
+def _kind(head: bytes) -> str:
+    """Say what a file is that Pillow does not read; people trust its name, which may be wrong."""
+    for start, pattern, what in _NO_PICTURE_HERE:
+        if re.match(pattern, head[start:], re.DOTALL):
+            return f"is {what}, which canim does not read"
+    return "cannot be read as a picture"
 
 
 def _triangle(corners: Floats, colour: tuple[int, int, int], size: int) -> Bytes:
