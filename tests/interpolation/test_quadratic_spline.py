@@ -298,3 +298,11 @@ def test_very_small_and_very_large_points():
     spline = quadratic_spline([0, 1e300], [1e300, 0])
     assert spline(5e299) == pytest.approx(5e299)
     assert quadratic_spline([0, 5e-324], [0, 5e-324])([0, 5e-324]).tolist() == [0, 5e-324]
+
+
+def test_far_from_0_the_spline_is_exact_and_its_coefficients_are_not():
+    near, far = (quadratic_spline(start + np.arange(4), [0, 1, 0, 2]) for start in (0, 1e8))
+    x = np.linspace(0, 3, 25)
+    assert np.array_equal(near(x), far(1e8 + x))
+    powers = np.polyval(far.coefficients[2], 1e8 + 2.5)
+    assert abs(powers - near(2.5)) > 0.2, "then the docstring need not warn"

@@ -30,7 +30,9 @@ class QuadraticSpline:
     values, slopes : ndarray, shape (K,)
         Value and slope at each knot.
     coefficients : ndarray, shape (K - 1, 3)
-        a, b, c of each piece a x² + b x + c, as `numpy.polyval` takes them.
+        a, b, c of each piece a x² + b x + c, as `numpy.polyval` takes them. Far from 0 the
+        powers of x are so large that little is left of a sum of them: with knots one apart
+        near 1e8 no digit is right. Calling the spline has no such error.
 
     Examples
     --------
@@ -192,7 +194,8 @@ def quadratic_spline_system(
     Notes
     -----
     The full system shows where the spline comes from; :func:`quadratic_spline` finds the
-    same one without a matrix. Theory: :ref:`Task 1.5 <task-1-5>`.
+    same one without a matrix. It also finds it far from 0, where this matrix, which holds
+    powers of x, cannot be solved. Theory: :ref:`Task 1.5 <task-1-5>`.
 
     References
     ----------
