@@ -1,7 +1,7 @@
 """Task 2.2: what "done" means for bilinear interpolation and for warping backward.
 
-As in Task 2.1 the images are numbered, so that a colour tells where it comes from; mixed
-colours then are places between pixels. One more image has colours without such an order.
+The images are numbered, so that a colour tells where it comes from; mixed colours then are
+places between pixels. One more image has colours without such an order.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from canim import warping
 from canim.checks.picture import IMAGES
 from canim.checks.run import number
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
-from canim.checks.task_2_1 import (
+from canim.checks.warps import (
     EDGE,
     HOLE,
     SQUARE,

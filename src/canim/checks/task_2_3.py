@@ -16,7 +16,7 @@ from canim import warping
 from canim.checks.picture import IMAGES
 from canim.checks.run import number
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
-from canim.checks.task_2_1 import describe, nothing, numbered
+from canim.checks.warps import describe, nothing, numbered
 
 HALF = 0.5 + 1e-6  # the most that rounding changes a colour
 

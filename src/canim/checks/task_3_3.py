@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from canim import character
-from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
-from canim.checks.task_3_2 import (
+from canim.checks.chains import (
     JACOBIAN,
     STOP,
     TOLERANCE,
@@ -23,6 +22,7 @@ from canim.checks.task_3_2 import (
     steps_to,
     wrong_steps,
 )
+from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
 
 
 def about(axis: int, angle: float) -> Floats:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from canim import character
+from canim.checks.blends import SHAPES, VERTICES, cases, coordinate, mixed
 from canim.checks.task import Array, Case, Floats, Function, Mistake, Part, Task
-from canim.checks.task_3_4 import SHAPES, VERTICES, cases, coordinate, mixed
 
 NEUTRAL, EXPRESSIONS = SHAPES[0].copy(), SHAPES[1:].copy()
 OTHER = EXPRESSIONS[:2, ::-1].copy()
