@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from tempfile import TemporaryDirectory
+
 import numpy as np
 from timing import Row, compare, typical
 
-from canim.character import delta_blendshape, global_blendshape
-from canim.data import face
+from canim.character import delta_blendshape, global_blendshape, load_expressions
+from canim.data import face, save_expressions
 
 SHAPES, VERTICES, FRAMES = 50, 100_000, 64
 
@@ -90,8 +92,10 @@ def mixing() -> list[Row]:
 
 
 def loading() -> Row:
-    seconds = typical({"canim": face}, repeats=5)["canim"]
-    return Row("`face`, 25 OBJ files", seconds, 0.5, "limit", 1)
+    with TemporaryDirectory() as folder:
+        save_expressions(folder)
+        seconds = typical({"canim": lambda: load_expressions(folder)}, repeats=5)["canim"]
+    return Row("`load_expressions`, 25 OBJ files", seconds, 0.5, "limit", 1)
 
 
 def rows() -> list[Row]:

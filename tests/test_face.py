@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import runpy
-import zlib
+from importlib.resources import files
 
 import numpy as np
 import pytest
+import trimesh
 
-from canim.character import delta_blendshape, global_blendshape
-from canim.data import MIXES, expression_paths, face
+from canim.character import delta_blendshape, global_blendshape, load_expressions
+from canim.data import MIXES, face, save_expressions
 
+FILE = files("canim.data") / "face/face.npz"
 ONE_SIDE = [
     *("blink_left", "brow_down_left", "brow_up_left", "smile_left"),
     *("blink_right", "brow_down_right", "brow_up_right", "smile_right"),
@@ -37,11 +39,45 @@ def place(head, name):
     return sizes @ head.neutral / sizes.sum()
 
 
-def test_every_file_is_an_expression(head, script):
-    first, *others = expression_paths()
-    assert first.name == "neutral.obj"
-    assert [path.stem for path in others] == list(head.expressions) == sorted(script["EXPRESSIONS"])
-    assert len(others) >= 16
+def test_the_expressions_are_those_that_are_made(head, script):
+    assert list(head.expressions) == sorted(script["EXPRESSIONS"])
+    assert len(head.expressions) >= 16
+
+
+def test_saved_as_obj_files_the_face_is_the_same(head, tmp_path):
+    save_expressions(tmp_path / "new" / "head")
+    again = load_expressions(tmp_path / "new" / "head")
+    assert list(again.expressions) == list(head.expressions)
+    for name in ("neutral", "shapes", "faces", "colors"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(head, name))
+
+
+def test_others_read_the_files_as_well(head, tmp_path):
+    save_expressions(tmp_path)
+    mesh = trimesh.load_mesh(tmp_path / "o.obj", process=False, maintain_order=True)
+    np.testing.assert_array_equal(mesh.vertices, head.expressions["o"])
+    np.testing.assert_array_equal(mesh.faces, head.faces)
+
+
+def test_a_file_that_somebody_changed_is_not_written_over(tmp_path):
+    save_expressions(tmp_path)
+    (tmp_path / "o.obj").write_text("mine")
+    (tmp_path / "frown.obj").unlink()
+    with pytest.raises(FileExistsError, match=r"^folder: .*o\.obj is there already"):
+        save_expressions(tmp_path)
+    assert (tmp_path / "o.obj").read_text() == "mine"
+    assert not (tmp_path / "frown.obj").exists()
+    (tmp_path / "o.obj").unlink()
+    save_expressions(str(tmp_path))
+    assert (tmp_path / "frown.obj").exists()
+
+
+def test_no_folder_is_refused(tmp_path):
+    with pytest.raises(TypeError, match=r"^folder must be the name of a folder, but is 3"):
+        save_expressions(3)
+    (tmp_path / "file").touch()
+    with pytest.raises(FileExistsError):
+        save_expressions(tmp_path / "file")
 
 
 def test_the_head_is_in_the_middle_and_of_the_size_of_a_head(head):
@@ -151,16 +187,15 @@ def test_each_call_gives_its_own_arrays(head):
     assert face().shapes.any()
 
 
-def test_the_files_are_small_when_packed():
-    packed = sum(len(zlib.compress(path.read_bytes(), 9)) for path in expression_paths())
-    assert packed < 1_900_000
+def test_the_face_is_a_small_file():
+    assert FILE.stat().st_size < 165_000
 
 
 def test_the_sources_are_told(script):
-    text = expression_paths()[0].with_name("SOURCES.md").read_text("utf-8")
+    text = FILE.with_name("SOURCES.md").read_text("utf-8")
     assert script["DIGEST"] in text
     for name, units in script["EXPRESSIONS"].items():
         told = ", ".join(f"{unit} {amount:g}" for unit, amount in units.items())
         assert f"\n| `{name}` | {told} |\n" in text
-    licence = expression_paths()[0].with_name("LICENSE.md").read_text("utf-8")
+    licence = FILE.with_name("LICENSE.md").read_text("utf-8")
     assert licence.startswith("# Creative Commons CC0 1.0 Universal")

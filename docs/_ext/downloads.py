@@ -7,6 +7,7 @@ import shutil
 import zipfile
 from html import escape
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import starter
 from docutils import nodes
@@ -14,6 +15,7 @@ from sphinx.errors import ConfigError
 from sphinx.util.docutils import SphinxDirective
 
 from canim.checks import TASKS
+from canim.data import expressions, save_expressions
 
 ROOT = Path(__file__).parents[2]
 RELEASE = starter.release(ROOT)
@@ -102,6 +104,11 @@ def _hand_out(app, exception):
     with zipfile.ZipFile(starters / "canim-starters.zip", "w") as together:
         for path in sorted(starters.glob("task_*")):
             put_into(together, f"canim-starters/{path.name}", path.read_bytes())
+    with zipfile.ZipFile(starters / "canim-head.zip", "w") as head, TemporaryDirectory() as folder:
+        save_expressions(folder)
+        about = [expressions.FILE.with_name(name) for name in ("SOURCES.md", "LICENSE.md")]
+        for path in [*about, *sorted(Path(folder).iterdir())]:
+            put_into(head, f"canim-head/{path.name}", path.read_bytes())
     shutil.copyfile(served_wheel(), _emptied(app.outdir / "wheels") / served_wheel().name)
 
 

@@ -60,7 +60,7 @@ PARTS = {
 NEEDS = {
     "scipy": r"\bscipy\b|\bwarping\b|\bcheck\(\s*[\"']2\.",
     "scipy-more": r"\bscipy\b",
-    "canim-face": r"\bface\(|\bexpression_paths\b|\bcheck\(\s*[\"']3\.[45]",
+    "canim-face": r"\bface\(|\bsave_expressions\b|\bcheck\(\s*[\"']3\.[45]",
 }
 FIRST = ("numpy", "matplotlib", "canim")
 

@@ -15,7 +15,7 @@ import canim
 
 plt.style.use("canim.style")
 
-face = canim.data.face()  # a head and its expressions, read from OBJ files
+face = canim.data.face()  # a head and its expressions
 names = ["neutral", *face.expressions]
 shapes = np.array([face.neutral, *face.shapes])  # names[k] is the name of shapes[k]
 smile = [names.index("smile_left"), names.index("smile_right")]
@@ -228,5 +228,7 @@ sliders = canim.plotting.weight_sliders(
 # Read more
 # ---------
 # In canim: :func:`canim.character.global_blendshape` and
-# :func:`canim.character.load_expressions`, which reads OBJ files of your own. Next:
-# :ref:`Task 3.5 <task-3-5>`, where faces no longer swell.
+# :func:`canim.character.load_expressions`, which reads OBJ files of your own.
+# :func:`canim.data.save_expressions` writes the head of this page as OBJ files; here they are
+# `in one zip <../../starters/canim-head.zip>`__. Next: :ref:`Task 3.5 <task-3-5>`, where faces
+# no longer swell.

@@ -4,9 +4,12 @@ import posixpath
 import zipfile
 from urllib.parse import unquote, urlsplit
 
+import numpy as np
 import pytest
 
+from canim.character import load_expressions
 from canim.checks import BLOCKS, TASKS
+from canim.data import face
 
 NAME = "canim-course"
 
@@ -26,6 +29,14 @@ def test_zip_is_the_site_without_itself(site, unpacked):
     expected = {path for path in files if path.parts[0] not in left_out}
     assert {p.relative_to(unpacked) for p in unpacked.rglob("*") if p.is_file()} == expected
     assert [path for path in expected if path.suffix == ".mp4"]
+
+
+def test_the_head_is_handed_out_as_the_files_that_the_paper_reads(site, tmp_path):
+    with zipfile.ZipFile(site / "starters/canim-head.zip") as archive:
+        archive.extractall(tmp_path)
+    head = load_expressions(tmp_path / "canim-head")
+    np.testing.assert_array_equal(head.shapes, face().shapes)
+    assert "CC0" in (tmp_path / "canim-head/LICENSE.md").read_text(encoding="utf-8")
 
 
 def test_zip_does_not_tell_when_it_was_made(site):

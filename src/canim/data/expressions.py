@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
 
-from canim.character import Face, load_expressions
+import numpy as np
 
-__all__ = ["MIXES", "expression_paths", "face"]
+from canim.character import Face
 
-_FOLDER = Path(__file__).with_name("face")
+__all__ = ["MIXES", "face", "save_expressions"]
+
+FILE = Path(__file__).with_name("face") / "face.npz"
+# The file holds whole numbers: hundredths of a centimetre, and of a colour.
+_PARTS = 100
 
 # How much of each expression makes a mood, or a face that says A, O or M.
 MIXES: dict[str, dict[str, float]] = {
@@ -48,11 +55,11 @@ def face() -> Face:
 
     See Also
     --------
-    expression_paths : the OBJ files that are loaded.
+    save_expressions : the same as OBJ files.
 
     Notes
     -----
-    Head and expressions were given to the public domain (CC0); ``SOURCES.md`` beside the files
+    Head and expressions were given to the public domain (CC0); ``SOURCES.md`` beside the file
     says where they come from. They are the face of Tasks 3.4 and 3.5.
 
     Examples
@@ -64,22 +71,68 @@ def face() -> Face:
     >>> sorted(head.expressions)[:3]
     ['blink_left', 'blink_right', 'brow_down_left']
     """
-    return load_expressions(_FOLDER)
+    with np.load(FILE) as stored:
+        neutral = stored["neutral"].astype(np.int64)
+        moved = (neutral + stored["moves"]) / _PARTS
+        names, triangles = stored["names"], stored["faces"]
+        colors = stored["colors"] / _PARTS
+    return Face(neutral / _PARTS, dict(zip(names.tolist(), moved)), triangles, colors)
 
 
-def expression_paths() -> list[Path]:
-    """Return where the OBJ files of `face` are: the neutral face first, then by name.
+def save_expressions(folder: str | os.PathLike[str]) -> None:
+    r"""Write the face as OBJ files: ``neutral.obj`` and one file for each expression.
 
-    Returns
-    -------
-    list of Path
-        The files.
+    `canim.character.load_expressions` reads them again, with every number as it was; so does
+    any program for 3D models.
+
+    Parameters
+    ----------
+    folder : str or path-like
+        The folder for the files. It is made if it is not there.
+
+    Raises
+    ------
+    FileExistsError
+        If the folder holds a file of that name with another content. Nothing is written then.
+    OSError
+        If the folder cannot be made, or a file not be written.
+    TypeError
+        If `folder` is not the name of a folder.
+
+    Notes
+    -----
+    In each file stand the vertices in centimetres, y up (``v x y z``), and the triangles
+    (``f``). ``neutral.obj`` has the colours as well (``v x y z red green blue``).
 
     Examples
     --------
-    >>> from canim.data import expression_paths
-    >>> [path.name for path in expression_paths()[:2]]
-    ['neutral.obj', 'blink_left.obj']
+    >>> from tempfile import TemporaryDirectory
+    >>> from pathlib import Path
+    >>> from canim.data import save_expressions
+    >>> with TemporaryDirectory() as folder:
+    ...     save_expressions(folder)
+    ...     print(Path(folder, "neutral.obj").read_text().split("\n")[0])
+    v -3.47 2.73 7.63 0.2 0.13 0.11
     """
-    neutral = _FOLDER / "neutral.obj"
-    return [neutral, *sorted(path for path in _FOLDER.glob("*.obj") if path != neutral)]
+    if not isinstance(folder, str | os.PathLike):
+        raise TypeError(f"folder must be the name of a folder, but is {folder!r}.")
+    head = face()
+    triangles = _lines("f", (head.faces + 1).tolist())
+    colored = np.hstack([head.neutral, head.colors])  # type: ignore[list-item]
+    tables = {"neutral": colored} | head.expressions
+    files = {
+        Path(folder, f"{name}.obj"): (_lines("v", table.tolist()) + triangles).encode()
+        for name, table in tables.items()
+    }
+    for path, content in files.items():
+        if path.exists() and path.read_bytes() != content:
+            raise FileExistsError(
+                f"folder: {path} is there already, with another content. Choose an empty folder."
+            )
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    for path, content in files.items():
+        path.write_bytes(content)
+
+
+def _lines(kind: str, rows: Iterable[list[Any]]) -> str:
+    return "".join(f"{kind} {' '.join(f'{number:.6g}' for number in row)}\n" for row in rows)
