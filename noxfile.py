@@ -159,6 +159,14 @@ def tests(session):
 
 
 @nox.session(default=False)
+def tests_search(session):
+    """Try every property test on many new examples; one that fails becomes an @example."""
+    install(session, "tests")
+    searched = ["--hypothesis-profile=search", "-m", "hypothesis", *PARALLEL]
+    session.run("pytest", *APART, *searched, *session.posargs)
+
+
+@nox.session(default=False)
 def tests_lowest(session):
     """Run the tests on the lowest versions that pyproject.toml declares."""
     install(session, "tests", lowest=True)

@@ -18,9 +18,14 @@ import pytest
 ROOT = Path(__file__).parents[1]
 sys.path[:0] = [str(ROOT / "docs/_ext"), str(ROOT / "docs")]
 os.environ["MPLBACKEND"] = "agg"
-# A busy machine makes any single example slow.
-hypothesis.settings.register_profile("canim", deadline=None)
-hypothesis.settings.load_profile("canim")
+# The same examples in every run; what new ones bring to light becomes an @example. A busy
+# machine makes any single one slow.
+hypothesis.settings.register_profile("same", derandomize=True, database=None, deadline=None)
+slow = [hypothesis.HealthCheck.too_slow]
+hypothesis.settings.register_profile(
+    "search", deadline=None, max_examples=2000, suppress_health_check=slow
+)
+hypothesis.settings.load_profile("same")
 
 
 @pytest.fixture(scope="session")

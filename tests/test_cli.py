@@ -2,6 +2,7 @@
 
 import io
 import json
+import runpy
 import subprocess
 import sys
 
@@ -107,6 +108,14 @@ def test_the_package_is_the_command_where_the_terminal_does_not_find_it():
     ran = subprocess.run(command, capture_output=True, check=False, timeout=60)
     assert ran.returncode == 0
     assert b"All checks of Task 1.1 pass." in ran.stdout
+
+
+def test_the_package_runs_as_the_command(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["canim", "tasks"])
+    with pytest.raises(SystemExit) as ended:
+        runpy.run_module("canim", run_name="__main__")
+    assert ended.value.code == 0
+    assert "1.1" in capsys.readouterr().out
 
 
 def test_check_hint_shows_the_hint_and_how_to_get_it(capsys):

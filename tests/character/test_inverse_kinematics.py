@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from canim.character import (
@@ -68,6 +68,11 @@ def best_error(offsets, goals):
     return np.maximum(np.maximum(distance - outer, inner - distance), 0)
 
 
+def tells_whether_at_most(said, value, limit):
+    """Assert that `said` is true where `value` is at most `limit`; on the limit, rounding says."""
+    assert said == (value <= limit) or value == pytest.approx(limit, rel=1e-6)
+
+
 def is_honest(result, start, offsets, goal, root, tolerance=1e-5):
     """Assert what the result of any search says about itself."""
     forward = FORWARD[offsets.shape[1]]
@@ -76,7 +81,7 @@ def is_honest(result, start, offsets, goal, root, tolerance=1e-5):
         result.positions, forward(result.angles, offsets, root), rtol=0, atol=1e-12 * size
     )
     assert result.error == pytest.approx(np.linalg.norm(goal - result.positions[-1]), abs=1e-12)
-    assert result.converged == (result.error <= tolerance * size)
+    tells_whether_at_most(result.converged, result.error, tolerance * size)
     assert result.history[0].tolist() == start.tolist()
     assert result.history[-1].tolist() == result.angles.tolist()
     assert np.abs(np.diff(result.history, axis=0)).max(initial=0) <= 0.5
@@ -136,9 +141,9 @@ def test_goals_out_of_reach_end_in_the_closest_pose(method, dimension, count):
     st.floats(0, 2),
     st.integers(0, 2**32 - 1),
 )
-@settings(max_examples=200)
 @example(2, 1, "pseudoinverse", 1.0, 0)
 @example(3, 1, "fabrik", 0.0, 0)
+@example(2, 1, "pseudoinverse", 0.99999, 1)  # The best error is the tolerance itself.
 def test_every_search_ends_as_close_as_can_be(dimension, count, method, radius, seed):
     rng = np.random.default_rng(seed)
     offsets = random_links(rng, dimension, count)
@@ -149,7 +154,7 @@ def test_every_search_ends_as_close_as_can_be(dimension, count, method, radius, 
     is_honest(result, start, offsets, root + way, root)
     best = best_error(offsets, way)
     assert result.error <= best * (1 + 1e-9) + 1e-5 * size
-    assert result.reachable == (best <= 1e-5 * size)
+    tells_whether_at_most(result.reachable, best, 1e-5 * size)
     assert result.iterations <= 200
 
 

@@ -1,12 +1,16 @@
 """What guards read of the machine, and what programs are given of it."""
 
+import json
 import os
+import runpy
+import socket
 import sys
+from dataclasses import asdict
 from multiprocessing import connection
 
 import pytest
 
-from canim.checks import guard
+from canim.checks import guard, student
 
 posix = pytest.importorskip("canim.checks.guard_posix") if os.name == "posix" else None
 needs_posix = pytest.mark.skipif(os.name != "posix", reason="a guard for Linux and macOS")
@@ -81,3 +85,228 @@ def test_a_guard_that_is_closed_ends_its_program():
     with pytest.raises(EOFError):
         connection.Connection.recv_bytes(pipe)
     pipe.close()
+
+
+# --- The server, in this process: what it would do to processes is written down instead
+
+
+@pytest.fixture
+def pair():
+    """Two ends of a socket."""
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        yield ours, theirs
+
+
+@pytest.fixture
+def done(monkeypatch):
+    """What was done, in order."""
+    done = []
+    for name in ("_set_in_kernel", "_end_family", "_limit"):
+        write = lambda *args, name=name: done.append((name, *args))  # noqa: E731
+        monkeypatch.setattr(posix, name, write)
+    return done
+
+
+@needs_posix
+@pytest.mark.parametrize("many", [True, False])
+@pytest.mark.parametrize("asked", [True, False])
+def test_the_server_tells_of_every_program_how_it_ended(pair, done, monkeypatch, many, asked):
+    ours, theirs = pair
+    limits = guard.Limits(3, 5)
+
+    def watch(program, groups, control, given):
+        done.append((program, set(groups), given))
+        if asked:
+            ours.sendall(b".")
+        ours.shutdown(socket.SHUT_WR)  # no other program comes
+        return "time"
+
+    monkeypatch.setattr(posix, "_watch", watch)
+    monkeypatch.setattr(posix.os, "fork", lambda: 77)
+    with open(os.devnull) as pipe:
+        socket.send_fds(ours, [json.dumps(asdict(limits)).encode()], [pipe.fileno()])
+    posix.serve(theirs, many)
+    adopt = ("_set_in_kernel", posix._ADOPT_ORPHANS, 1)
+    assert done == [adopt, (77, {77}, limits), ("_end_family", {77})]
+    theirs.close()
+    assert ours.recv(20) == (b"time\n" if asked else b"")
+
+
+@needs_posix
+def test_a_copy_of_the_server_becomes_the_program(pair, done, monkeypatch):
+    ours, theirs = pair
+    mine, pipe = socket.socketpair()
+
+    def exit_now(code):
+        done.append(("exit", code))
+        raise SystemExit
+
+    def run(pipe):
+        done.append(("serve", pipe.recv_bytes()))
+        raise MemoryError
+
+    monkeypatch.setattr(posix.os, "fork", lambda: 0)
+    monkeypatch.setattr(posix.os, "setsid", lambda: done.append(("setsid",)))
+    monkeypatch.setattr(posix.os, "_exit", exit_now)
+    monkeypatch.setattr(student, "serve", run)
+    with connection.Connection(mine.detach()) as asks, pipe:
+        asks.send_bytes(b"hello")
+        socket.send_fds(ours, [json.dumps(asdict(guard.Limits())).encode()], [pipe.fileno()])
+        with pytest.raises(SystemExit):
+            posix.serve(theirs, False)
+    assert theirs.fileno() == -1  # it cannot speak for the server
+    assert done[1:] == [
+        ("setsid",),
+        ("_set_in_kernel", posix._DIE_WITH_PARENT, posix.signal.SIGKILL),
+        ("_limit", guard.Limits()),
+        ("serve", b"hello"),
+        ("exit", 0),
+    ]
+
+
+@needs_posix
+def test_the_module_serves_what_stands_at_its_input(pair):
+    ours, theirs = pair
+    ours.close()
+    before = os.dup(0)
+    os.dup2(theirs.fileno(), 0)
+    try:
+        ran = runpy.run_path(posix.__file__, run_name="__main__")
+        assert os.read(0, 1) == b""  # nobody types
+    finally:
+        os.dup2(before, 0)
+        os.close(before)
+        posix._set_in_kernel(posix._ADOPT_ORPHANS, 0)
+    ran["own_end"].close()
+
+
+@needs_posix
+def test_a_program_may_take_what_its_limits_say(monkeypatch):
+    limited = {}
+    monkeypatch.setattr(posix.resource, "setrlimit", limited.__setitem__)
+    posix._limit(guard.Limits(megabytes=300))
+    assert limited.pop(posix.resource.RLIMIT_CORE) == (0, 0)
+    assert limited.pop(posix.resource.RLIMIT_FSIZE) == (guard.LARGEST_FILE,) * 2
+    if sys.platform == "linux":
+        soft, hard = limited.pop(posix.resource.RLIMIT_AS)
+        assert soft == hard > 300e6  # above what Python and numpy have taken
+    assert limited == {}
+
+
+@needs_posix
+@pytest.mark.parametrize(
+    ("broken", "changed"),
+    [
+        ("", {"ended": [[], [7]]}),
+        ("time", {"times": [0, 61]}),
+        ("processes", {"family": set(range(guard.MOST_PROCESSES + 1))}),
+        ("memory", {"memory": 2001}),
+    ],
+)
+def test_a_program_is_watched_until_it_ends_or_breaks_a_limit(pair, monkeypatch, broken, changed):
+    watched = {"ended": [[], []], "times": [0, 60, 60], "family": {7}, "memory": 2000} | changed
+    ended, times = iter(watched["ended"]), iter(watched["times"])
+    monkeypatch.setattr(posix.time, "monotonic", lambda: next(times))
+    monkeypatch.setattr(posix, "_ended", lambda: next(ended))
+    monkeypatch.setattr(posix, "_family", lambda groups: watched["family"])
+    monkeypatch.setattr(posix, "_memory", lambda family: watched["memory"])
+    assert posix._watch(7, {7}, pair[0], guard.Limits()) == broken
+
+
+@needs_posix
+@pytest.mark.parametrize("by_itself", [True, False])
+def test_a_program_that_nobody_asks_any_more_may_end_by_itself(pair, monkeypatch, by_itself):
+    pair[1].sendall(b".")
+    ended = iter([[], [7] if by_itself else []])
+    times = iter([0, 0, 0, posix.GRACE])
+    monkeypatch.setattr(posix.time, "monotonic", lambda: next(times))
+    monkeypatch.setattr(posix.time, "sleep", lambda seconds: None)
+    monkeypatch.setattr(posix, "_ended", lambda: next(ended))
+    assert posix._watch(7, {7}, pair[0], guard.Limits()) == ""
+    assert list(ended) == []
+
+
+@needs_posix
+def test_who_has_ended_is_buried_until_nobody_is_left(monkeypatch):
+    buried = iter([(5, 0), (6, 0), (0, 0)])
+    monkeypatch.setattr(posix.os, "waitpid", lambda *which: next(buried))
+    assert posix._ended() == [5, 6]
+
+    def nobody(*which):
+        raise ChildProcessError
+
+    monkeypatch.setattr(posix.os, "waitpid", nobody)
+    assert posix._ended() == []
+
+
+@needs_posix
+def test_signals_go_to_those_who_are_there(monkeypatch):
+    sent = []
+
+    def kill(process, number):
+        if process in (2, 3):
+            raise ProcessLookupError if process == 2 else PermissionError
+        sent.append((process, number))
+
+    monkeypatch.setattr(posix.os, "kill", kill)
+    posix._signal({1, 2, 3, 4}, 9)
+    assert sorted(sent) == [(1, 9), (4, 9)]
+
+
+@needs_posix
+def test_this_process_and_its_memory_are_seen():
+    me = os.getpid()
+    assert posix._processes()[me][0] == os.getppid()
+    assert posix._memory({me}) > 1
+
+
+# --- What the server answers, and a server that is gone
+
+
+@needs_posix
+def test_the_server_that_is_there_takes_the_next_program(pair, monkeypatch):
+    ours, theirs = pair
+    kept = guard.make()
+    monkeypatch.setattr(kept, "_server", "is there")
+    monkeypatch.setattr(kept, "_control", ours, raising=False)
+    for answer in ("time", ""):
+        pipe = kept.start(guard.Limits())
+        theirs.sendall(f"{answer}\n".encode())
+        assert kept.end() == answer
+        assert pipe.closed
+
+
+@needs_posix
+@pytest.mark.parametrize("still_takes", [True, False])
+def test_the_next_program_gets_another_server(pair, monkeypatch, still_takes):
+    ours, theirs = pair
+    kept = guard.make()
+    started = []
+    monkeypatch.setattr(kept, "_server", None)
+    monkeypatch.setattr(kept, "_start_server", lambda: started.append(ours.dup()))
+    monkeypatch.setattr(kept, "_control", ours, raising=False)
+    pipe = kept.start(guard.Limits())
+    (server,) = started
+    server.close()
+    if still_takes:
+        theirs.shutdown(socket.SHUT_WR)
+    else:
+        theirs.close()
+    assert kept.end() == ""
+    assert pipe.closed
+    assert kept.end() == ""  # of the same program, as often as it is asked
+
+
+@needs_posix
+def test_a_pipe_ends_with_the_server_whoever_holds_its_other_end(pair):
+    ours, theirs = pair
+    mine, others = connection.Pipe()
+    pipe = posix._Pipe(os.dup(mine.fileno()), ours)
+    others.send_bytes(b"first")
+    assert pipe.recv_bytes() == b"first"
+    theirs.close()
+    with pytest.raises(EOFError):
+        pipe.recv_bytes()
+    for end in (pipe, mine, others):
+        end.close()

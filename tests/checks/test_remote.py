@@ -2,13 +2,14 @@
 
 import json
 import multiprocessing
+import sys
 import threading
 
 import numpy as np
 import pytest
 
 from canim import checks
-from canim.checks import file
+from canim.checks import file, remote
 from canim.checks.crash import Crash
 from canim.checks.file import check_file
 from canim.checks.program import Stopped
@@ -251,3 +252,16 @@ def test_who_is_gone_is_not_asked():
     with pytest.raises(Gone):
         Peer(here, dict).ask(value=1)
     here.close()
+
+
+def test_a_copy_of_a_process_does_not_speak_for_it(monkeypatch):
+    here, there = multiprocessing.Pipe()
+    peer = Peer(here, dict)
+    monkeypatch.setattr(remote, "getpid", lambda: -1)
+    monkeypatch.setattr(remote, "_exit", sys.exit)
+    with pytest.raises(SystemExit):
+        peer.ask(value=1)
+    here.close()
+    with pytest.raises(EOFError):
+        there.recv_bytes()  # nothing came before the end
+    there.close()

@@ -9,6 +9,7 @@ import pytest
 
 import canim
 from canim import checks, interpolation
+from canim.checks import program
 from canim.checks.program import Program
 from canim.checks.task import Array, Case, Data, Function, Mistake, Part, Task, Unusable, at
 
@@ -160,6 +161,17 @@ def test_a_crash_inside_a_library_points_to_the_students_line():
 def test_ending_the_program_is_told():
     report = checks.run(task(), {"f": lambda t: sys.exit()})
     assert "ends the program instead of returning" in report.results[0].message
+
+
+def test_a_function_that_prints_without_end_is_stopped(monkeypatch):
+    monkeypatch.setattr(program, "MOST_OUTPUT", 10**6)
+
+    def f(t):
+        while True:
+            print("again and again " * 100)
+
+    (problem,) = checks.run(task(), {"f": f}).problems
+    assert "More than 1 MB are printed. Is there a loop without an end?" in problem
 
 
 def test_functions_are_called_quietly_and_once_for_the_same_arguments(capsys):

@@ -8,7 +8,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 from scipy.spatial import KDTree
@@ -75,7 +75,6 @@ def test_morph_begins_and_ends_with_the_images(dtype, channels):
 
 
 @given(st.floats(0, 1), st.integers(0, 2**32))
-@settings(max_examples=40)
 def test_bytes_are_within_one_level(t, seed):
     image_a, image_b, a, b = random_pair((23, 29, 3), np.uint8, seed)
     image_a, image_b = image_a // 128 * 255, image_b // 128 * 255

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial import Delaunay
@@ -166,7 +166,6 @@ def test_one_colour_stays_that_colour(dtype, channels):
 
 
 @given(st.integers(0, 2**32), st.integers(2, 40), st.integers(2, 40), st.integers(1, 30))
-@settings(max_examples=60)
 def test_bytes_are_within_one_level_and_every_pixel_is_filled(seed, height, width, count):
     source, target, triangles = random_mesh((height, width), count, seed, move=0.3)
     # Black and white noise is the hardest image.

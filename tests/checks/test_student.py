@@ -1,0 +1,164 @@
+"""The student's side of a check; here, it shares the process of the test."""
+
+import multiprocessing
+import os
+import sys
+import tempfile
+import threading
+from contextlib import closing, suppress
+
+import matplotlib
+import nbformat
+import pytest
+from matplotlib import pyplot
+from matplotlib.backend_bases import FigureCanvasBase
+
+from canim import checks
+from canim.checks import student
+from canim.checks.file import check_file
+from canim.checks.guard import Limits
+
+RIGHT = "from canim.interpolation import hermite_basis\n"
+
+
+class Ended(BaseException):
+    """The program is ended from outside."""
+
+
+class Beside:
+    """A guard whose programs run in a thread; `broken` is the limit that they are told to break."""
+
+    def __init__(self, broken=""):
+        self._broken = broken
+        self._open = False
+
+    def start(self, limits):
+        self._pipe, theirs = multiprocessing.Pipe()
+        self._thread = threading.Thread(target=self._run, args=[theirs])
+        self._thread.start()
+        self._open = True
+        return self._pipe
+
+    def _run(self, pipe):
+        with suppress(Ended), closing(pipe):
+            student.serve(pipe)
+
+    def end(self):
+        if self._open:
+            self._open = False
+            self._pipe.close()
+            self._thread.join()
+        return self._broken
+
+    def close(self):
+        raise AssertionError("the guard is the test's")
+
+
+@pytest.fixture
+def check(tmp_path, monkeypatch):
+    """Check a program; what this process changes for it is put back."""
+    changed = {
+        sys: ("argv", "dont_write_bytecode", "path", "stdout", "stderr"),
+        matplotlib: ("use",),
+        pyplot: ("switch_backend",),
+        FigureCanvasBase: ("start_event_loop",),
+        checks: ("check",),
+        tempfile: ("tempdir",),
+    }
+    for place, names in changed.items():
+        for name in names:
+            monkeypatch.setattr(place, name, getattr(place, name))
+    monkeypatch.setattr(sys, "path", sys.path[:])
+    monkeypatch.setitem(sys.modules, "__main__", sys.modules["__main__"])
+    for name in ("TMPDIR", "TEMP", "TMP"):
+        monkeypatch.setenv(name, "")
+    monkeypatch.chdir(tmp_path)
+
+    def checked(text, name="mine.py", task="1.1", broken=""):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return check_file(path, task=task, limits=Limits(2), guard=Beside(broken))
+
+    return checked
+
+
+def messages(report):
+    return [result.message for result in report.results]
+
+
+def test_a_program_is_run_and_its_functions_are_called(check):
+    text = "assert __name__ == '__main__' and __file__.endswith('mine.py')\n" + RIGHT
+    report = check(text + "answers = {1: 2.5, 'b': None}\n")
+    assert report.done
+    assert report.notes == ("hermite_basis uses canim's function.",)
+    assert report.answers == {"1": "2.5", "b": "None"}
+
+
+def test_a_notebook_has_no_file(check):
+    notebook = nbformat.v4.new_notebook()
+    codes = ["%pip install canim\n" + RIGHT, "assert '__file__' not in globals()", "answers = 3"]
+    notebook.cells = [nbformat.v4.new_code_cell(code) for code in codes]
+    report = check(nbformat.writes(notebook), "mine.ipynb")
+    assert report.done
+    assert report.answers == {}
+
+
+def test_data_are_asked_for(check):
+    text = "from canim.interpolation import lagrange_interpolate\n"
+    text += "def f(x): return 1 / (1 + x**2)\n"
+    text += "def sample(f, nodes): return [f(node) for node in nodes]\n"
+    text += "def interpolate(f, nodes, x):\n"
+    text += "    return lagrange_interpolate(nodes, sample(f, nodes), x)\n"
+    assert check(text + "nodes = [1, 2, 3.5]\n", task="1.4").done
+    missing = check(text, task="1.4")
+    assert "nodes is missing: keep this name in your program." in messages(missing)
+
+
+def test_what_a_program_that_stops_has_defined_is_checked(check):
+    report = check(RIGHT + "print(undefined)\n")
+    assert report.stopped.line == 2
+    assert [result.state for result in report.results] == ["done"] * 4
+
+
+def test_a_name_that_comes_after_the_end_is_told(check):
+    report = check("raise SystemExit\n" + RIGHT)
+    assert messages(report)[0] == f"hermite_basis {student.EARLY}"
+
+
+def test_nothing_waits_or_is_printed(check, capfd):
+    text = "import matplotlib, sys\nfrom matplotlib import pyplot\nmatplotlib.use('TkAgg')\n"
+    text += "pyplot.switch_backend('TkAgg')\npyplot.figure()\npyplot.pause(1000)\npyplot.close()\n"
+    assert check(text + "print(1)\nprint(2, file=sys.stderr)\n" + RIGHT).done
+    assert capfd.readouterr() == ("", "")
+
+
+def test_temporary_files_have_a_folder_that_goes_with_the_program(check, tmp_path):
+    written = tmp_path / "written.txt"
+    text = "import pathlib, tempfile\nnumber, name = tempfile.mkstemp()\n"
+    text += f"pathlib.Path({str(written)!r}).write_text(name)\n"
+    assert check(text + RIGHT).done
+    assert not os.path.exists(written.read_text())
+    assert sorted(tmp_path.iterdir()) == [tmp_path / "mine.py", written]
+
+
+@pytest.mark.parametrize(
+    ("error", "sentence"), [(MemoryError, student.FULL), (ZeroDivisionError, student.CHANGED)]
+)
+def test_what_cannot_be_asked_for_is_told(check, monkeypatch, error, sentence):
+    def fail(*args):
+        raise error
+
+    monkeypatch.setattr(student.Program, "call", fail)
+    monkeypatch.setattr(student.Program, "value", fail)
+    assert messages(check(RIGHT))[0] == f"hermite_basis {sentence}"
+    assert f"nodes {sentence}" in messages(check(RIGHT, task="1.4"))
+
+
+def test_a_function_in_which_the_program_is_ended_is_named(check, monkeypatch):
+    def be_ended(*args):
+        raise Ended
+
+    monkeypatch.setattr(student.Program, "call", be_ended)
+    report = check(RIGHT, broken="time")
+    said = "hermite_basis did not end within 2 seconds. Is there a loop without an end?"
+    assert messages(report)[0] == said
