@@ -56,11 +56,13 @@ class Start(SphinxDirective):
 
     def run(self):
         up = "../" * self.env.docname.count("/")
-        buttons = {
-            "Start with Task 1.1": f"{TASKS['1.1'].page}.html",
-            "New here? Warm up first <span>(Task 0.0)</span>": f"{TASKS['0.0'].page}.html",
-            "All starters <span>(.zip)</span>": "starters/canim-starters.zip",
-        }
+        # Any task may be left out, also these.
+        first = next(task for task in TASKS.values() if task.block != "warm_up")
+        buttons = {f"Start with Task {first.id}": f"{first.page}.html"}
+        for warm_up in (task for task in TASKS.values() if task.block == "warm_up"):
+            text = f"New here? Warm up first <span>(Task {warm_up.id})</span>"
+            buttons[text] = f"{warm_up.page}.html"
+        buttons["All starters <span>(.zip)</span>"] = "starters/canim-starters.zip"
         links = "".join(
             f'<a href="{up}{escape(address)}" class="button">{text}</a>'
             for text, address in buttons.items()

@@ -41,7 +41,7 @@ class TaskCards(SphinxDirective):
             self.warn(f"no block {block!r}, only {', '.join(BLOCKS)}")
         tasks = [task for task in TASKS.values() if task.block == block]
         if not tasks:
-            return [nodes.paragraph("", "The tasks of this block follow.")]
+            return [nodes.paragraph("", "This block has no task.")]
         cards = nodes.bullet_list("", *map(self.card, tasks), classes=["task-cards"])
         return [cards, self.toctree(tasks)] if "toctree" in self.options else [cards]
 

@@ -1,7 +1,11 @@
-"""A task's page: sphinx-gallery's additions go, the card comes, some code is folded."""
+"""A task's page: sphinx-gallery's additions go, the card comes, some code is folded.
+
+A task may be left out: where a text links to its page, the words stay and the link goes.
+"""
 
 from __future__ import annotations
 
+import posixpath
 import re
 from pathlib import Path
 
@@ -20,6 +24,9 @@ GALLERY_THUMBNAILS = re.compile(r"^\.\. raw:: html\n\n  <div id='sg-tag-list'[\s
                                 r"(?=^\.\. toctree::|\Z)", re.M)  # fmt: skip
 FOR_THE_SITE = re.compile(r"^# (?:Picture|Film|GIF): .*\n(?:#.*\n)*|  # noqa.*$", re.M)
 PAGES = {task.page: task for task in TASKS.values()}
+# A page that shows what a task is needs the task.
+SHOWS = {"students/tasks_and_checks": "0.0"}
+GONE = [page for page, task in SHOWS.items() if task not in TASKS]
 
 
 class ByNumber:
@@ -146,10 +153,10 @@ def _row(term, *content):
 
 
 def builds_on(task):
-    """Return what a task builds on, as links."""
-    if not task.builds_on:
+    """Return what a task builds on, as links to what is there of it."""
+    links = [page_link(TASKS[id_], f"Task {id_}") for id_ in task.builds_on if id_ in TASKS]
+    if not links:
         return [nodes.Text("nothing: start here" if task.id == "0.0" else "no other task")]
-    links = [page_link(TASKS[id_], f"Task {id_}") for id_ in task.builds_on]
     return [n for link in links for n in (nodes.Text(", "), link)][1:]
 
 
@@ -166,6 +173,29 @@ def page_link(task, text):
     )
 
 
+def _leave_out(app, env, node, contnode):
+    """Show the words of a link to a task that the course does without."""
+    target = node["reftarget"]
+    if node["reftype"] == "doc" and target.rpartition("/")[2] in map(posixpath.basename, GONE):
+        return contnode
+    label = re.fullmatch(r"task-(\d)-(\d+)", target)
+    if node["reftype"] != "ref" or label is None:
+        return None
+    return (
+        contnode if node["refexplicit"] else nodes.inline("", "Task {}.{}".format(*label.groups()))
+    )
+
+
+def _leave_pages_out(app, config):
+    config.exclude_patterns += [f"{page}.md" for page in GONE]
+
+
+def _take_out_of_lists(app, docname, source):
+    for page in GONE:
+        name = page.removeprefix(f"{posixpath.dirname(docname)}/")
+        source[0] = re.sub(rf"^{name}\n", "", source[0], flags=re.M)
+
+
 def _source_link(docname):
     script = docname.rpartition("/")[2] + ".py"
     link = nodes.reference("", "Source of this page", refuri=script, internal=True)
@@ -176,5 +206,8 @@ def _source_link(docname):
 def setup(app):
     app.add_node(fold, html=(visit_fold, depart_fold))
     app.connect("source-read", _remove_additions)
+    app.connect("source-read", _take_out_of_lists)
     app.connect("doctree-read", _arrange)
+    app.connect("config-inited", _leave_pages_out)
+    app.connect("missing-reference", _leave_out)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 
-def sphinx(source, target, *options):
+def sphinx(source, target, *options, **variables):
     command = [sys.executable, "-m", "sphinx", "-q", *options, source, target]
     paths = (str(ROOT / "docs/_ext"), os.environ.get("PYTHONPATH"))
     environment = os.environ | {
@@ -23,13 +23,17 @@ def sphinx(source, target, *options):
     }
     environment.setdefault("CANIM_PYODIDE", str(ROOT / "docs/_build/pyodide"))
     return subprocess.run(
-        command, capture_output=True, text=True, encoding="utf-8", env=environment, check=False
+        command,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        env=environment | variables,
+        check=False,
     )
 
 
-def test_second_build_gives_the_same_bytes(site, tmp_path):
-    """Built from nothing, in another folder, with another hash seed."""
-    copy = tmp_path / "copy"
+def copy_of_the_project(copy):
+    """Copy all that the site is made from."""
     generated = shutil.ignore_patterns("_build", "node_modules", "__pycache__", "*.pyc")
     shutil.copytree(ROOT / "docs", copy / "docs", ignore=generated)
     shutil.rmtree(copy / "docs/gallery", ignore_errors=True)
@@ -38,6 +42,12 @@ def test_second_build_gives_the_same_bytes(site, tmp_path):
         shutil.copytree(ROOT / folder, copy / folder, ignore=generated)
     for name in ("pyproject.toml", "CONTRIBUTING.md", "CHANGELOG.md"):
         shutil.copyfile(ROOT / name, copy / name)
+
+
+def test_second_build_gives_the_same_bytes(site, tmp_path):
+    """Built from nothing, in another folder, with another hash seed."""
+    copy = tmp_path / "copy"
+    copy_of_the_project(copy)
     again = tmp_path / "html"
     built = sphinx(copy / "docs", again, "-W", "-n", "-d", tmp_path / "doctrees")
     assert built.stderr == ""
@@ -46,6 +56,53 @@ def test_second_build_gives_the_same_bytes(site, tmp_path):
     assert files == {path.relative_to(again) for path in again.rglob("*") if path.is_file()}
     _, different, _ = filecmp.cmpfiles(site, again, files, shallow=False)
     assert different == []
+
+
+# No program runs: pages have no pictures, and no Python in them.
+TEXT_ALONE = (
+    *("-D", "plot_gallery=0", "-D", "nb_execution_mode=off"),
+    *("-D", "suppress_warnings=myst-nb.lexer,pictures,tasks"),
+)
+
+
+def test_tasks_can_be_left_out(read_pages, tmp_path, monkeypatch):
+    """The warm-up and the first task, and such as others build on."""
+    monkeypatch.delenv("CI", raising=False)  # there, a site without Python in it is not built
+    copy, built = tmp_path / "copy", tmp_path / "html"
+    copy_of_the_project(copy)
+    left_out = ("0_0", "1_1", "2_1", "3_2", "3_4")
+    for task in left_out:
+        for path in [*copy.rglob(f"task_{task}_*"), *copy.rglob(f"task_{task}.py")]:
+            path.unlink()
+    # Which parts show a mistake is tested elsewhere, and takes as long as all the rest.
+    with (copy / "docs/_ext/known_mistakes.py").open("a", encoding="utf-8") as extension:
+        extension.write('\nshows_in = lambda *args: ["part"]\n')
+    paths = os.pathsep.join([str(copy / "docs/_ext"), str(copy / "src")])
+    ran = sphinx(
+        *(copy / "docs", built, "-W", "-n", "--keep-going", "-d", tmp_path / "doctrees"),
+        *TEXT_ALONE,
+        PYTHONPATH=paths,
+        CANIM_PYODIDE=str(tmp_path / "none"),
+    )
+    assert ran.returncode == 0, ran.stderr
+
+    documents = read_pages(built)
+    gone = [name for name in documents for task in left_out if f"task_{task}_" in name]
+    assert gone == []
+    assert "gallery/warping/task_2_2_warp_backward.html" in documents
+    for name, document in documents.items():
+        for link in document.all("a"):
+            target = link.get("href", "").partition("#")[0]
+            if target and "://" not in target and target.endswith(".html"):
+                path = (built / name).parent / target
+                assert path.exists(), f"{name} links to {target}"
+    (start,) = [e for e in documents["index.html"].all("a") if e["text"].startswith("Start with")]
+    assert start["href"] == "gallery/interpolation/task_1_2_hermite_interpolation.html"
+    mistakes = documents["course/mistakes.html"]
+    assert "mistakes-2-2" in mistakes.ids
+    assert "mistakes-2-1" not in mistakes.ids
+    words = (built / "gallery/warping/index.html").read_text(encoding="utf-8")
+    assert re.search(r"<strong>Push\.</strong> <span[^>]*>Task 2\.1</span> takes every", words)
 
 
 @pytest.fixture
