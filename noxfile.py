@@ -291,6 +291,9 @@ def build(session):
     session.install(*PINNED, *GROUPS["build"])
     shutil.rmtree("dist", ignore_errors=True)
     session.run("python", "-m", "hatchling", "build", "-d", "dist")
+    made = sorted(path.name for path in Path("dist").iterdir())
+    if made != [f"canim-{version()}-py3-none-any.whl", f"canim-{version()}.tar.gz"]:
+        session.error(f"dist holds {', '.join(made)}: more than a wheel and an sdist.")
     wheel = next(Path("dist").glob("*.whl")).absolute()
 
     scratch = Path(session.create_tmp()).absolute()

@@ -82,7 +82,7 @@ def pack(files: dict[str, str | bytes], target: Path) -> None:
 
 if __name__ == "__main__":
     root = Path(__file__).parents[2]
-    target = Path(sys.argv[1]) if len(sys.argv) > 1 else root / "dist/canim-solutions.zip"
+    target = Path(sys.argv[1]) if len(sys.argv) > 1 else root / "build/canim-solutions.zip"
     programs = completed(root)
     answers = (root / "tests/gallery/solutions/answers.md").read_text(encoding="utf-8")
     pack({**programs, "answers.md": answers}, target)
