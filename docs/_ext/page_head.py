@@ -1,4 +1,8 @@
-"""What a page says of itself to search engines, and to readers who hear or type."""
+"""What a page says of itself to search engines, and to readers who hear or type; where it is from.
+
+``:repository:`the repository``` leads to the project's files, once `pyproject.toml` says where
+they are. Until then it is these words, and the foot of the pages has no link either.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,7 @@ from markupsafe import Markup
 from task_page import fold
 
 SITE = RELEASE.site.rstrip("/")
+REPOSITORY = RELEASE.repository
 LONGEST = 160
 GENERATED = {
     "genindex": "All functions and classes of canim, from A to Z.",
@@ -103,9 +108,19 @@ def _missing(app):
 
 def _set_address(app, config):
     config.html_baseurl = RELEASE.site
+    if REPOSITORY:
+        words = {"name": "The repository", "html": "All files of the course", "class": ""}
+        config.html_theme_options["footer_icons"] = [words | {"url": REPOSITORY}]
+
+
+def _to_repository(name, rawtext, text, lineno, inliner, options=None, content=None):
+    if not REPOSITORY:
+        return [nodes.Text(text)], []
+    return [nodes.reference(rawtext, text, refuri=REPOSITORY)], []
 
 
 def setup(app):
+    app.add_role("repository", _to_repository)
     app.connect("config-inited", _set_address)
     app.connect("builder-inited", _label)
     app.connect("html-page-context", _describe)

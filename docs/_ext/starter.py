@@ -66,10 +66,11 @@ class Page:
 
 @dataclass(frozen=True)
 class Release:
-    """What starters name: the address of the site ("" while there is none) and the wheel."""
+    """What a release names: its addresses ("" while there are none) and the wheel."""
 
     site: str
     version: str
+    repository: str = ""
 
     @property
     def wheel(self) -> str:
@@ -90,13 +91,17 @@ class Release:
 
 
 def release(root: Path) -> Release:
-    """Return the site and version that the project in `root` declares."""
+    """Return the addresses and the version that the project in `root` declares."""
     settings = tomllib.loads((root / "pyproject.toml").read_text(encoding="utf-8"))
     source = (root / "src/canim/__init__.py").read_text(encoding="utf-8")
     version = re.search(r'^__version__ = "(.+)"$', source, re.M)
     if not version:
         raise ValueError('src/canim/__init__.py: no line __version__ = "…"')
-    return Release(settings["tool"]["canim"]["site"], version[1])
+    addresses = settings["tool"]["canim"]
+    for name in ("site", "repository"):
+        if addresses[name] and not re.fullmatch(r"https?://[^\s/]\S*", addresses[name]):
+            raise ValueError(f"pyproject.toml: {name} must be an address, not {addresses[name]!r}")
+    return Release(addresses["site"], version[1], addresses["repository"])
 
 
 def pages(root: Path) -> list[Page]:

@@ -65,29 +65,64 @@ TEXT_ALONE = (
 )
 
 
-def test_tasks_can_be_left_out(read_pages, tmp_path, monkeypatch):
-    """The warm-up and the first task, and such as others build on."""
-    monkeypatch.delenv("CI", raising=False)  # there, a site without Python in it is not built
-    copy, built = tmp_path / "copy", tmp_path / "html"
+LEFT_OUT = ("0_0", "1_1", "2_1", "3_2", "3_4")  # the warm-up, the first, what others build on
+ELSEWHERE = "https://example.org/files"
+
+
+@pytest.fixture(scope="module")
+def other_course(tmp_path_factory):
+    """The site of a course with fewer tasks, whose files are somewhere in the net."""
+    copy, built = tmp_path_factory.mktemp("copy"), tmp_path_factory.mktemp("built")
     copy_of_the_project(copy)
-    left_out = ("0_0", "1_1", "2_1", "3_2", "3_4")
-    for task in left_out:
+    for task in LEFT_OUT:
         for path in [*copy.rglob(f"task_{task}_*"), *copy.rglob(f"task_{task}.py")]:
             path.unlink()
+    settings = (copy / "pyproject.toml").read_text(encoding="utf-8")
+    settings = re.sub(r"(?m)^repository = .*", f'repository = "{ELSEWHERE}"', settings)
+    (copy / "pyproject.toml").write_text(settings, encoding="utf-8")
     # Which parts show a mistake is tested elsewhere, and takes as long as all the rest.
     with (copy / "docs/_ext/known_mistakes.py").open("a", encoding="utf-8") as extension:
         extension.write('\nshows_in = lambda *args: ["part"]\n')
-    paths = os.pathsep.join([str(copy / "docs/_ext"), str(copy / "src")])
     ran = sphinx(
-        *(copy / "docs", built, "-W", "-n", "--keep-going", "-d", tmp_path / "doctrees"),
+        *(copy / "docs", built, "-W", "-n", "--keep-going", "-d", copy / "doctrees"),
         *TEXT_ALONE,
-        PYTHONPATH=paths,
-        CANIM_PYODIDE=str(tmp_path / "none"),
+        PYTHONPATH=os.pathsep.join([str(copy / "docs/_ext"), str(copy / "src")]),
+        CANIM_PYODIDE=str(copy / "none"),
+        CI="",  # there, a site without Python in its pages is not built
     )
     assert ran.returncode == 0, ran.stderr
+    return built
 
+
+def test_every_page_leads_to_the_repository_where_there_is_one(other_course, read_pages):
+    documents = read_pages(other_course)
+    for name, document in documents.items():
+        if name != "404.html":
+            (link,) = [e for e in document.all("a") if e["text"] == "All files of the course"]
+            assert link["href"] == ELSEWHERE, name
+    links = documents["course/marking.html"].all("a")
+    named = [e["text"] for e in links if e.get("href") == ELSEWHERE]
+    assert named.count("the repository") == 2
+
+
+@pytest.mark.parametrize("repository", ["", ELSEWHERE])
+def test_the_repository_is_a_word_while_there_is_none(monkeypatch, repository):
+    import page_head
+
+    monkeypatch.setattr(page_head, "REPOSITORY", repository)
+    (shown,), said = page_head._to_repository("repository", "", "the repository", 1, None)
+    assert said == []
+    assert shown.astext() == "the repository"
+    assert (getattr(shown, "attributes", {}).get("refuri") or "") == repository
+    config = SimpleNamespace(html_theme_options={})
+    page_head._set_address(None, config)
+    assert ("footer_icons" in config.html_theme_options) == bool(repository)
+
+
+def test_tasks_can_be_left_out(other_course, read_pages):
+    built = other_course
     documents = read_pages(built)
-    gone = [name for name in documents for task in left_out if f"task_{task}_" in name]
+    gone = [name for name in documents for task in LEFT_OUT if f"task_{task}_" in name]
     assert gone == []
     assert "gallery/warping/task_2_2_warp_backward.html" in documents
     for name, document in documents.items():
