@@ -9,6 +9,7 @@ import sys
 import pytest
 from PIL import Image
 
+import canim
 from canim import checks
 from canim.checks import file as files
 from canim.cli import main
@@ -68,7 +69,7 @@ def test_start_never_overwrites(folder, capsys):
 
 def test_start_names_the_tasks_there_are(capsys):
     assert main(["start", "7.7"]) == 2
-    assert "There is no task '7.7'; there are 0.0, 1.1" in capsys.readouterr().err
+    assert "There is no task '7.7'. There are 0.0, 1.1" in capsys.readouterr().err
 
 
 def test_start_says_why_it_cannot_write(monkeypatch, capsys):
@@ -294,7 +295,7 @@ def test_a_file_that_the_system_does_not_give_is_refused(monkeypatch, capsys):
         raise PermissionError(13, "Permission denied")
 
     write("mine.py", DONE)
-    monkeypatch.setattr(files.Path, "read_text", refuse)
+    monkeypatch.setattr(files.Path, "read_bytes", refuse)
     assert main(["check", "mine.py"]) == 2
     assert "mine.py cannot be read: Permission denied." in capsys.readouterr().err
 
@@ -362,3 +363,131 @@ def test_no_window_is_opened_and_the_file_runs_in_its_folder(folder):
     )
     (folder / "sub" / "mine.py").write_text(text, encoding="utf-8")
     assert main(["check", "sub/mine.py"]) == 0
+
+
+def test_the_version_is_told(capsys):
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    assert ended.value.code == 0
+    assert capsys.readouterr().out == f"canim {canim.__version__}\n"
+
+
+def test_the_bare_command_shows_what_it_can_do(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["canim"])
+    assert main() == 0
+    said = capsys.readouterr()
+    assert said.err == ""
+    assert all(f"\n    {command} " in said.out for command in ("tasks", "start", "check"))
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"),
+    [
+        ("chek", "Do you mean: canim check?"),
+        ("star", "Do you mean: canim start?"),
+        ("task", "Do you mean: canim tasks?"),
+        ("mine.py", "Do you mean: canim check mine.py?"),
+        ("1.1", "Do you mean: canim check 1.1?"),
+    ],
+)
+def test_a_command_that_is_nearly_right_is_told(word, meant, capsys):
+    assert main([word]) == 2
+    assert f"There is no command {word}. {meant}" in capsys.readouterr().err
+
+
+def test_another_word_is_no_command(capsys):
+    with pytest.raises(SystemExit):
+        main(["xyz"])
+    assert "invalid choice: 'xyz'" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "number",
+    ["1,1", "1_1", "1-1", "1 1", "task 1.1", "Task1.1", "1.1.", "task_1_1", "(1.1)", "01.01"],
+)
+def test_a_number_in_other_signs_is_taken_where_it_is_certain(number, folder, capsys):
+    assert main(["start", *number.split()]) == 0
+    assert (folder / FILE).exists()
+    assert main(["check", "--task", number, write("my.py", DONE)]) == 0
+    assert main(["check", number]) == 1
+
+
+@pytest.mark.parametrize(
+    ("number", "words"),
+    [("11", "Do you mean '1.1'?"), ("9,9", "There are 0.0, 1.1"), ("x", "There are 0.0, 1.1")],
+)
+def test_a_number_that_is_not_certain_is_asked_for(number, words, folder, capsys):
+    assert main(["start", number]) == 2
+    assert f"There is no task '{number}'. {words}" in capsys.readouterr().err
+    assert main(["check", "--task", number, write("my.py", DONE)]) == 2
+    assert words in capsys.readouterr().err
+    assert [path.name for path in folder.iterdir()] == ["my.py"]
+
+
+def test_the_check_of_a_program_asks_which_task_was_meant():
+    with pytest.raises(ValueError, match=r"There is no task '1,1'\. Do you mean '1\.1'\?"):
+        canim.check("1,1")
+
+
+def test_the_file_of_a_task_is_found_in_this_folder(folder, capsys):
+    assert main(["check", "1.1"]) == 2
+    said = capsys.readouterr().err
+    assert "There is no file of Task 1.1 in this folder." in said
+    assert "Get its starter with: canim start 1.1" in said
+    write("task_1_10.py", DONE)
+    write("task_1_1.txt", "notes")
+    write("task_1_1_mine.ipynb", notebook(DONE))
+    assert main(["check", "1.1"]) == 0
+    write(FILE, DONE)
+    capsys.readouterr()
+    assert main(["check", "1.1"]) == 2
+    said = capsys.readouterr().err
+    assert f"several files of Task 1.1 in this folder: task_1_1_mine.ipynb, {FILE}." in said
+    assert 'Say which one, as in: canim check "task_1_1_mine.ipynb"' in said
+    (folder / "1.1").mkdir()
+    write("1.1/a.py", DONE)
+    assert main(["check", "1.1", "--jobs", "1"]) == 0  # a folder of that name is that folder
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("11", "There is no task '11'. Do you mean '1.1'?"),
+        ("9.9", "There is no task '9.9'. There are"),
+        ("task_1_1.py", f"task_1_1.py is not there. Do you mean {FILE}?"),
+        ("sub/task_1_1.py", "sub/task_1_1.py is not there."),
+        ("*.ipynb", "*.ipynb is not there."),
+    ],
+)
+def test_a_file_that_is_not_there_is_looked_for(text, words, capsys):
+    write(FILE, DONE)
+    assert main(["check", text]) == 2
+    assert words in capsys.readouterr().err
+
+
+def test_several_files_are_checked_one_after_another(folder, capsys):
+    write("a.py", DONE)
+    write("b.py", DONE + "1 / 0\n")
+    (folder / "class").mkdir()
+    write("class/c.py", DONE)
+    assert main(["check", "a.py", "class", "--jobs", "1"]) == 0
+    out = capsys.readouterr().out
+    assert out.startswith("a.py\nTask 1.1: ")
+    assert "\n\nclass\nc.py: Task 1.1, 4 of 4 parts done\n" in out
+    assert main(["check", "*.py"]) == 1  # as it comes where the terminal knows no patterns
+    assert "\n\nb.py\nTask 1.1: " in capsys.readouterr().out
+    write("c.py", "x = (")
+    assert main(["check", "c.py", "a.py"]) == 2
+    assert "All checks of Task 1.1 pass." in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("option", "words"),
+    [
+        ("--figure=x.png", "--figure is for one file, but there are 2."),
+        ("--report=x.csv", "--report is for one folder or zip, but there are 2 files."),
+    ],
+)
+def test_options_for_one_are_not_taken_for_two(option, words, capsys):
+    assert main(["check", write("a.py", DONE), write("b.py", DONE), option]) == 2
+    assert words in capsys.readouterr().err

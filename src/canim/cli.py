@@ -3,26 +3,48 @@
 from __future__ import annotations
 
 import argparse
+import difflib
+import glob
 import math
+import re
 import sys
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from canim import checks
+from canim import __version__, checks
+from canim.checks import reading
 from canim.checks.guard import Limits
 from canim.checks.report import harmless, printable
+
+_COMMANDS = ("tasks", "start", "check")
+_ENDS = """\
+It ends with 0 if every part of every file is done, with 1 if not, and with 2 if the command
+itself cannot be carried out: a file that is not there or is no program, an unknown task or
+option, a table or picture that cannot be written."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with `arguments` (those of the program by default), return its exit code."""
+    arguments = sys.argv[1:] if arguments is None else arguments
     parser = argparse.ArgumentParser(prog="canim", description=__doc__)
-    commands = parser.add_subparsers(dest="command", required=True)
+    parser.add_argument("--version", action="version", version=f"canim {__version__}")
+    commands = parser.add_subparsers(dest="command")
     commands.add_parser("tasks", help="list the tasks of the course")
     start = commands.add_parser("start", help="write the starter of a task into this folder")
-    start.add_argument("task", help="number of the task, as in 1.3")
-    check = commands.add_parser("check", help="check a program or notebook")
-    check.add_argument("file", type=Path, help="a .py or .ipynb file, or a folder of them")
+    start.add_argument("task", nargs="+", help="number of the task, as in 1.3")
+    check = commands.add_parser(
+        "check",
+        help="check programs and notebooks, or a whole class",
+        epilog=_ENDS,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    check.add_argument(
+        "file",
+        nargs="+",
+        help="a .py or .ipynb file, the number of the task whose file is in this folder, "
+        "or a folder or zip of a class",
+    )
     check.add_argument("--task", help="number of the task, where the file does not say it")
     check.add_argument(
         "--hint",
@@ -48,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         "--report",
         type=table,
         metavar="FILE",
-        help="of a folder: write all results as .csv or .json",
+        help="of a folder or zip: write all results as .csv or .json",
     )
     check.add_argument(
         "--jobs", type=jobs, default=-1, metavar="N", help="of a folder: files at the same time"
@@ -56,20 +78,81 @@ def main(arguments: Sequence[str] | None = None) -> int:
     check.add_argument(
         "--figure", type=png_file, metavar="FILE.png", help="draw expected and got into this file"
     )
+    if arguments and (meant := _meant(arguments[0])):
+        return _refuse(f"There is no command {arguments[0]}. Do you mean: canim {meant}?")
     asked = parser.parse_args(arguments)
+    if asked.command is None:
+        parser.print_help()
+        return 0
     if asked.command == "tasks":
         return _tasks()
     if asked.command == "start":
-        return _start(asked.task)
-    limits = Limits(asked.time, asked.memory)
-    if asked.file.is_dir():
-        for option in ("figure", "hint"):
-            if getattr(asked, option):
-                return _refuse(f"--{option} is for one file, but {asked.file} is a folder.")
-        return _check_folder(asked.file, asked.task, limits, asked.jobs, asked.report)
-    if asked.report:
-        return _refuse(f"--report is for a folder, but {asked.file} is none.")
-    return _check(asked.file, asked.task, asked.hint, limits, asked.figure)
+        return _start(" ".join(asked.task))
+    try:
+        task = None if asked.task is None else _find(asked.task).id
+        paths = [path for text in asked.file for path in _paths(text)]
+    except ValueError as error:
+        return _refuse(str(error))
+    return _check(paths, task, asked)
+
+
+def _meant(word: str) -> str:
+    """Return the command that was meant by a word that is none, or ""."""
+    if word.startswith("-") or word in _COMMANDS:
+        return ""
+    if Path(word).exists() or reading.kind(Path(word)) or _certain(word):
+        return f"check {word}"
+    return "".join(difflib.get_close_matches(word, _COMMANDS, 1))
+
+
+def _find(text: str) -> checks.Task:
+    """Return the task that a text such as "1,1" means for certain."""
+    return checks.find(_certain(text) or text)
+
+
+def _certain(text: str) -> str:
+    """Return the number of a task that is written with other signs, or ""."""
+    written = re.fullmatch(r"[\W_]*(?:task)?[\W_]*\d+[\W_]+\d+[\W_]*", text, re.IGNORECASE)
+    return checks.number_in(text) if written else ""
+
+
+def _paths(text: str) -> list[Path]:
+    """Return the files that an argument names: itself, those of a pattern, or that of a task."""
+    path = Path(text)
+    if path.exists() or path.is_symlink():
+        return [path]
+    # Windows hands patterns over as they were typed.
+    if found := sorted(glob.glob(text)):
+        return [Path(name) for name in found]
+    if number := _certain(text):
+        return [_only_file_of(number)]
+    if re.fullmatch(r"\d+(?:\.\d+)?", text):
+        checks.find(text)
+    meant = _files_of(reading.task_in(path), path.parent)
+    there = f" Do you mean {' or '.join(map(str, meant))}?" if meant else ""
+    raise ValueError(f"{text} is not there.{there}")
+
+
+def _only_file_of(number: str) -> Path:
+    found = _files_of(number, Path())
+    if not found:
+        raise ValueError(
+            f"There is no file of Task {number} in this folder. "
+            f"Get its starter with: canim start {number}"
+        )
+    if len(found) > 1:
+        raise ValueError(
+            f"There are several files of Task {number} in this folder: "
+            f'{", ".join(map(str, found))}.\nSay which one, as in: canim check "{found[0]}"'
+        )
+    return found[0]
+
+
+def _files_of(number: str, folder: Path) -> list[Path]:
+    """Return the programs and notebooks in the folder that have this task in their names."""
+    if not number or not folder.is_dir():
+        return []
+    return [p for p in sorted(folder.iterdir()) if reading.task_in(p) == number and reading.kind(p)]
 
 
 def _tasks() -> int:
@@ -86,7 +169,7 @@ def _tasks() -> int:
 
 def _start(number: str) -> int:
     try:
-        task = checks.find(number)
+        task = _find(number)
     except ValueError as error:
         return _refuse(str(error))
     starter = (files("canim") / "starters" / task.file_name).read_text(encoding="utf-8")
@@ -102,46 +185,79 @@ def _start(number: str) -> int:
     return 0
 
 
-def _check(path: Path, task: str | None, hint: int, limits: Limits, figure: Path | None) -> int:
-    from canim.checks.file import UnusableFile, check_file
+def _check(paths: list[Path], task: str | None, asked: argparse.Namespace) -> int:
+    """Check one file, folder or zip after another; return the exit code of all."""
+    from canim.checks import handins
+
+    classes = [path for path in paths if path.is_dir() or handins.is_zip(path)]
+    for option in ("figure", "hint") if classes else ():
+        if getattr(asked, option):
+            kind = "folder" if classes[0].is_dir() else "zip"
+            return _refuse(f"--{option} is for one file, but {classes[0]} is a {kind}.")
+    if asked.figure and len(paths) > 1:
+        return _refuse(f"--figure is for one file, but there are {len(paths)}.")
+    if asked.report and len(paths) > 1:
+        return _refuse(f"--report is for one folder or zip, but there are {len(paths)} files.")
+    if asked.report and not classes:
+        return _refuse(f"--report is for a folder or zip, but {paths[0]} is none.")
+    limits = Limits(asked.time, asked.memory)
+    codes = []
+    for path in paths:
+        if len(paths) > 1:
+            print(printable(f"{'' if path is paths[0] else chr(10)}{path}"))
+        if path in classes:
+            codes.append(_check_folder(path, task, limits, asked.jobs, asked.report))
+        else:
+            codes.append(_check_file(path, task, asked.hint, limits, asked.figure))
+    return max(codes)
+
+
+def _check_file(
+    path: Path, task: str | None, hint: int, limits: Limits, figure: Path | None
+) -> int:
+    from canim.checks.file import check_file
 
     try:
-        report = check_file(path, task=task, hint=hint, limits=limits, figure=figure)
-    except UnusableFile as problem:
+        reports = check_file(path, task=task, hint=hint, limits=limits, figure=figure)
+    except reading.UnusableFile as problem:
         return _refuse(str(problem))
-    checks.show(report)
-    return 0 if report.done else 1
+    for number, report in enumerate(reports):
+        print("\n" if number else "", end="")
+        checks.show(report)
+    return 0 if all(report.done for report in reports) else 1
 
 
 def _check_folder(
-    path: Path, task: str | None, limits: Limits, jobs: int, report: Path | None
+    path: Path, task: str | None, limits: Limits, jobs: int, table: Path | None
 ) -> int:
     from canim.checks import folder
 
-    if not any(folder.find(path)):
-        return _refuse(f"{path} holds no .py and no .ipynb file.")
-    if report:
+    if table:
         try:
-            folder.make_room(report)
+            folder.make_room(table)
         except OSError as error:
-            return _refuse(f"{report} cannot be written: {error.strerror}.")
+            return _refuse(f"{table} cannot be written: {error.strerror}.")
     if jobs != 1 and not folder.can_share():
         print(folder.ONE_BY_ONE, file=sys.stderr)
-    rows = folder.check_folder(path, task=task, limits=limits, jobs=jobs, progress=_progress)
+    rows = folder.check_folder(
+        path, task=task, limits=limits, jobs=jobs, progress=_progress, table=table
+    )
+    if not any(row["file"] for row in rows):
+        return _refuse(f"{path} {rows[0]['message']}")
     for line in folder.summary(rows):
         print(printable(line))
-    if report:
+    if table:
         try:
-            folder.write(rows, report)
+            folder.write(rows, table)
         except OSError as error:
-            return _refuse(f"{report} cannot be written: {error.strerror}.")
-        print(printable(f"All results are in {report} now."))
-    return 0 if all(row["passed"] for row in rows) else 1
+            return _refuse(f"{table} cannot be written: {error.strerror}.")
+        print(printable(f"All results are in {table} now."))
+    return 1 if any(row["passed"] is False for row in rows) else 0
 
 
 def _progress(done: int, total: int) -> None:
     """Show how far it is, where somebody looks on: a file or a program gets no bar."""
-    if sys.stderr.isatty():
+    if total and sys.stderr.isatty():
         bar = "#" * (30 * done // total)
         end = "\n" if done == total else ""
         print(f"\r[{bar:.<30}] {done} of {total} files", end=end, file=sys.stderr, flush=True)

@@ -14,7 +14,7 @@ import pytest
 from joblib.externals.loky import get_reusable_executor
 
 from canim import checks
-from canim.checks import folder
+from canim.checks import folder, handins
 from canim.checks.folder import check_folder
 from canim.checks.guard import Limits
 from canim.cli import main
@@ -88,20 +88,25 @@ def test_every_file_is_checked_whatever_the_others_do(handed_in, alone):
     rows = check_folder(handed_in, limits=LIMITS, progress=lambda *both: seen.append(both))
     assert sorted(handed_in.rglob("*")) == before  # nothing is written beside the programs
     files = by_file(rows)
-    assert seen == [(done, len(files)) for done in range(len(files) + 1)]
+    programs = [name for name, parts in files.items() if parts[0]["result"] != "passed over"]
+    assert seen == [(done, 10) for done in range(11)]
+    assert programs == sorted(programs)
     told = {
         name: (parts[0]["passed"], parts[0]["message"] or parts[0]["notes"])
         for name, parts in files.items()
     }
-    assert list(told) == sorted(told)
+    assert told["ann/notes.txt"] == (None, "is neither a .py nor an .ipynb file.")
+    assert told["ann/.hidden.py"] == (None, "is a hidden file: its name begins with a dot.")
+    assert told[""][1].endswith("for themselves: __pycache__ (1).")
     assert told["ann/task_1_1.py"] == (True, "hermite_basis uses canim's function.")
     assert told["dora/task_1_1.ipynb"][0]
     assert told["ben/broken.py"][1].startswith("line 1: x = ( A bracket is opened")
+    assert told["cem/helper.py"][0] is None  # another program imports it
     assert told["cem/helper.py"][1].startswith("is not a task of the course")
-    assert "is not a text in UTF-8" in told["latin/task_1_1.py"][1]
+    assert told["latin/task_1_1.py"][1].startswith("line 1: ")
     assert told["exits/task_1_1.py"][1] == "not checked"
     assert "The name undefined is not known here" in told["ben/task_1_1 crashes.py"][1]
-    assert len(told) == 10
+    assert len(told) == 14
     hints = [row["hint"] for row in files["cem/task_1_1_with_helper.py"]]
     assert [bool(hint) for hint in hints] == [False, True, False, False]
     for name in ("cem/task_1_1.py", "cem/task_1_1_again.py"):
@@ -126,8 +131,10 @@ def _backwards(checked):
     return lambda given, *others: checked(given[::-1], *others)
 
 
-def test_a_folder_without_programs_has_no_rows(tmp_path, alone):
-    assert check_folder(tmp_path) == []
+def test_a_folder_without_a_file_is_told(tmp_path, alone):
+    assert check_folder(tmp_path) == [
+        folder._row("", result="not checked", message="holds no file.")
+    ]
 
 
 def test_a_fault_of_ours_is_a_row(handed_in, alone, monkeypatch):
@@ -136,7 +143,8 @@ def test_a_fault_of_ours_is_a_row(handed_in, alone, monkeypatch):
 
     monkeypatch.setattr(folder, "check_file", fail)
     rows = check_folder(handed_in)
-    assert rows[0]["message"] == "could not be checked: RuntimeError: no room"
+    told = {row["file"]: row["message"] for row in rows}
+    assert told["ann/task_1_1.py"] == "could not be checked: RuntimeError: no room"
     assert not any(row["passed"] for row in rows)
 
 
@@ -144,7 +152,7 @@ def test_threads_of_a_worker_take_turns(handed_in):
     with joblib.parallel_config(backend="threading", n_jobs=2):
         rows = check_folder(handed_in / "cem", limits=LIMITS)
     folder._close_guard()
-    assert len(rows) == 13
+    assert len(rows) == 14
 
 
 def test_the_table_is_for_spreadsheets(handed_in, tmp_path, monkeypatch, capsys, alone):
@@ -156,7 +164,7 @@ def test_the_table_is_for_spreadsheets(handed_in, tmp_path, monkeypatch, capsys,
     assert "All parts are done in 1 of 1 files." in said.out
     assert report.read_bytes().startswith(b"\xef\xbb\xbffile,task,part,result")
     with report.open(encoding="utf-8-sig", newline="") as file:
-        rows = list(csv.DictReader(file))
+        rows = [row for row in csv.DictReader(file) if row["passed"]]
     assert [row["part"] for row in rows] == [part.name for part in checks.TASKS["1.1"].parts]
     assert rows[0]["passed"] == "yes"
     assert rows[0]["answer 1"] == "because"
@@ -210,19 +218,19 @@ def test_somebody_who_looks_on_sees_how_far_it_is(handed_in, alone, monkeypatch,
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["empty"], "empty holds no .py and no .ipynb file."),
+        (["empty"], "empty holds no file."),
         (["ann", "--report", "no/where.csv"], "cannot be written: No such file"),
         (["ann", "--report", "folder.csv"], "folder.csv cannot be written: Is a directory."),
         (["ann", "--figure", "x.png"], "--figure is for one file, but ann is a folder."),
         (["ann", "--hint"], "--hint is for one file, but ann is a folder."),
-        (["ann/task_1_1.py", "--report", "x.csv"], "--report is for a folder, but"),
+        (["ann/task_1_1.py", "--report", "x.csv"], "--report is for a folder or zip, but"),
     ],
 )
 def test_what_cannot_be_done_is_told(handed_in, arguments, words, monkeypatch, capsys):
     monkeypatch.chdir(handed_in)
     (handed_in / "empty").mkdir()
     (handed_in / "folder.csv").mkdir()
-    monkeypatch.setattr(folder, "check_folder", None)  # nothing is checked before
+    monkeypatch.setattr(folder, "check_file", None)  # nothing is checked before
     assert main(["check", *arguments]) == 2
     assert words in capsys.readouterr().err
 
@@ -245,11 +253,14 @@ def test_what_is_no_regular_file_is_passed_over(tmp_path):
 
     (tmp_path / "from").mkdir()
     program = tmp_path / "from" / "task_1_1.py"
-    program.write_text("")
+    program.write_text("x")
     os.mkfifo(tmp_path / "from" / "pipe.py")
     os.mkfifo(tmp_path / "from" / "pipe.txt")
     (tmp_path / "from" / "device.txt").symlink_to("/dev/zero")
-    assert list(folder.find(tmp_path)) == [program]
+    told = {found.path.name: found.reason for found in handins.find(tmp_path, tmp_path)}
+    assert told["task_1_1.py"] == ""
+    assert told["pipe.py"] == told["pipe.txt"] == "is a pipe or a device, or may not be read."
+    assert told["device.txt"].startswith("is a link that leads out of the folder")
     file.copy_beside(program, [("pipe", "x")], tmp_path / "to")
     assert [path.name for path in (tmp_path / "to").iterdir()] == ["task_1_1.py"]
 

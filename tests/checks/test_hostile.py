@@ -61,7 +61,7 @@ def test_a_hostile_program_ends_within_the_limit_with_a_plain_report(
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     (tmp_path / "handed_in").mkdir()
     own = Path(shutil.copy(path, tmp_path / "handed_in"))
-    report = check_file(own, task="1.1", limits=limits, guard=keeper)
+    (report,) = check_file(own, task="1.1", limits=limits, guard=keeper)
     assert not report.done
     said = " ".join(str(report).split())
     if os.name == "posix":

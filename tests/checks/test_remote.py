@@ -38,7 +38,8 @@ def check(tmp_path, one_guard):
             text += HEADS[name] + body
         path = tmp_path / TASK.file_name
         path.write_text(text, encoding="utf-8")
-        return check_file(path)
+        (report,) = check_file(path)
+        return report
 
     return checked
 

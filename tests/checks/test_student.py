@@ -77,7 +77,8 @@ def check(tmp_path, monkeypatch):
     def checked(text, name="mine.py", task="1.1", broken=""):
         path = tmp_path / name
         path.write_text(text, encoding="utf-8")
-        return check_file(path, task=task, limits=Limits(2), guard=Beside(broken))
+        (report,) = check_file(path, task=task, limits=Limits(2), guard=Beside(broken))
+        return report
 
     return checked
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import pkgutil
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -66,8 +67,19 @@ def find(task: str) -> Task:
     if not isinstance(task, str):
         raise TypeError(f'task must be a text such as "1.1", but is {task!r}.')
     if task not in TASKS:
-        raise ValueError(f"There is no task {task!r}; there are {', '.join(TASKS)}.")
+        meant = number_in(task)
+        words = f"Do you mean {meant!r}?" if meant else f"There are {', '.join(TASKS)}."
+        raise ValueError(f"There is no task {task!r}. {words}")
     return TASKS[task]
+
+
+def number_in(text: str) -> str:
+    """Return the number of the task that a text such as "1,1" or "Task 1-1" means, or ""."""
+    numbers = re.findall(r"\d+", text)
+    if len(numbers) == 1:
+        numbers = [numbers[0][:1], numbers[0][1:]]
+    number = ".".join(digits.lstrip("0") or "0" for digits in numbers)
+    return number if number in TASKS else ""
 
 
 def check(task: str, *, hint: int = False, **functions: Any) -> None:

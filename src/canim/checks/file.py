@@ -10,28 +10,25 @@ import re
 import shutil
 import tempfile
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from canim import checks
+from canim.checks import reading
 from canim.checks.crash import explain
 from canim.checks.guard import Guard, Limits, make
 from canim.checks.picture import png
+from canim.checks.reading import SUFFIXES, NoTask, UnusableFile
 from canim.checks.remote import Gone, Peer, Remote, crash
 from canim.checks.report import Report, Result, stops
 from canim.checks.run import judge
 from canim.checks.task import Task
 
-SUFFIXES = (".py", ".ipynb")
 # Of what lies beside a program: enough for pictures and a face, not for somebody's home.
 MOST_BESIDE = 50_000_000  # in bytes
 MOST_FILES_BESIDE = 500
-
-
-class UnusableFile(Exception):
-    """The file cannot be checked; the message says why."""
 
 
 def check_file(
@@ -42,16 +39,16 @@ def check_file(
     limits: Limits | None = None,
     figure: Path | None = None,
     guard: Guard | None = None,
-) -> Report:
-    """Run the file in a fresh process without windows and return the report on it.
+) -> list[Report]:
+    """Run the file in a fresh process without windows; return a report on each task in it.
 
     Parameters
     ----------
     path : Path
         A Python program or a Jupyter notebook.
     task : str, optional
-        Number of the task; otherwise that of the file's call of ``canim.check``, or of
-        its name.
+        Number of the task; otherwise those of the file's calls of ``canim.check``, or
+        that of its name.
     hint : int
         1 to show the hints of the mistakes that were recognised, 2 to show also the line of
         the pseudocode that each belongs to.
@@ -68,18 +65,35 @@ def check_file(
         If the file is not there, is not a task or cannot be read as Python, or the figure
         cannot be written.
     """
-    sources = _sources(path)
-    found = _task_of(path, _parsed(sources), task)
+    if path.is_file() and not reading.kind(path):
+        raise UnusableFile(f"{path} {reading.why_not(path)}")
+    text, note = reading.read(path)
+    sources = _sources(path, text)
+    trees = _parsed(sources)
+    calls = _calls(trees)
+    tasks, notes = _tasks_of(path, list(calls), task)
+    notes = [*([note] if note else []), *notes]
     own = guard or make()
     try:
-        report = _run(own, path, sources, found, limits or Limits())
+        reports = [
+            _run(own, path, _until(sources, trees, calls, task), task, limits or Limits())
+            for task in tasks
+        ]
     finally:
         if guard is None:
             own.close()
     if figure:
-        report = replace(report, notes=(*report.notes, _drawn(report, figure)))
+        notes.append(_drawn(reports, figure))
     how_to_hint = (f"Type: {_command(path, task, 1)}", f"Type: {_command(path, task, 2)}")
-    return replace(report, show_hints=hint, how_to_hint=how_to_hint)
+    return [
+        replace(
+            report,
+            notes=(*report.notes, *notes),
+            show_hints=hint,
+            how_to_hint=how_to_hint,
+        )
+        for report in reports
+    ]
 
 
 def _run(
@@ -94,7 +108,9 @@ def _run(
     with tempfile.TemporaryDirectory(prefix="canim-", ignore_cleanup_errors=True) as folder:
         work = Path(folder).resolve() / "work"
         copy_beside(path, sources, work)
-        order = {"task": task.id, "codes": sources, "file": path.name, "folder": str(work)}
+        name = reading.python_name(path)
+        (work / path.name).replace(work / name)
+        order = {"task": task.id, "codes": sources, "file": name, "folder": str(work)}
         peer = Peer(guard.start(limits), _refuse)
         try:
             ran = peer.ask(run=order)
@@ -159,12 +175,13 @@ def _beside(path: Path, text: str) -> Iterator[Path]:
                 yield entry
 
 
-def _drawn(report: Report, figure: Path) -> str:
+def _drawn(reports: Sequence[Report], figure: Path) -> str:
     """Draw what differs, if it can be drawn, into the file `figure`; return a sentence on it."""
-    if not report.drawings:
+    drawings = [drawing for report in reports for drawing in report.drawings]
+    if not drawings:
         return "There is no picture: no part that differs is a curve, an image or a chain."
     try:
-        figure.write_bytes(png(report.drawings, titles=True))
+        figure.write_bytes(png(drawings, titles=True))
     except OSError as error:
         raise UnusableFile(f"{figure} cannot be written: {error.strerror}.") from None
     return f"Expected and yours are drawn in {figure}."
@@ -203,18 +220,8 @@ def _parse(code: str, name: str) -> ast.Module:
         raise UnusableFile(f"{name} is not a Python program: {error}.") from None
 
 
-def _sources(path: Path) -> list[tuple[str, str]]:
-    if path.suffix not in SUFFIXES:
-        raise UnusableFile(f"{path} is neither a .py nor an .ipynb file.")
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise UnusableFile(f"{path} is not there.") from None
-    except UnicodeDecodeError:
-        raise UnusableFile(f"{path} is not a text in UTF-8: save it as UTF-8.") from None
-    except OSError as error:
-        raise UnusableFile(f"{path} cannot be read: {error.strerror}.") from None
-    if path.suffix == ".py":
+def _sources(path: Path, text: str) -> list[tuple[str, str]]:
+    if reading.kind(path) == ".py" and not reading.is_notebook(text):
         return [(text, str(path))]
     try:
         cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
@@ -233,31 +240,67 @@ def _python_of(code: str) -> str:
     return code  # in Python, a line may begin with the operator %
 
 
-def _task_of(path: Path, trees: list[ast.Module], asked: str | None) -> Task:
+def _calls(trees: list[ast.Module]) -> dict[str, tuple[int, int]]:
+    """Return the tasks that the program checks, and the cell and line of each one's last call."""
+    found = [
+        (cell, call.end_lineno or call.lineno, str(task))
+        for cell, tree in enumerate(trees)
+        for call, task in reading.calls(tree)
+    ]
+    return {task: (cell, line) for cell, line, task in sorted(found)}
+
+
+def _tasks_of(path: Path, called: list[str], asked: str | None) -> tuple[list[Task], list[str]]:
+    """Return the tasks of a file, and sentences on what else it is of."""
+    known = [number for number in called if number in checks.TASKS]
     if asked is not None:
         try:
-            return checks.find(asked)
+            task = checks.find(asked)
         except ValueError as error:
             raise UnusableFile(str(error)) from None
-    calls = [
-        node.args[0].value
-        for tree in trees
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Call)
-        and _is_check(node.func)
-        and node.args
-        and isinstance(node.args[0], ast.Constant)
-    ]
-    named = re.search(r"task[_ -]?(\d)[_. -](\d+)", path.name)
-    for number in [*calls, *([f"{named[1]}.{named[2]}"] if named else [])]:
-        if number in checks.TASKS:
-            return checks.TASKS[str(number)]
-    raise UnusableFile(f"{path} is not a task of the course: say which one with --task, as in 1.1.")
+        others = [number for number in known if number != task.id]
+        words = f"The file is of Task {' and '.join(others)} too"
+        if task.id not in known:
+            words = f"By its call of canim.check, the file is of Task {' and '.join(others)}"
+        return [task], [f"{words}: Task {task.id} was asked for."] if others else []
+    unknown = [text for text in called if re.fullmatch(r"\d+\D\d+", text) and text not in known]
+    notes = [f"There is no Task {number}, which the file asks for." for number in unknown]
+    if known:
+        return [checks.TASKS[number] for number in known], notes
+    if (number := reading.task_in(path)) in checks.TASKS:
+        return [checks.TASKS[number]], notes
+    raise NoTask(f"{path} is not a task of the course: say which one with --task, as in 1.1.")
 
 
-def _is_check(function: ast.expr) -> bool:
-    """Tell whether this is ``check`` or ``canim.check``, however deep a program is nested."""
-    match function:
-        case ast.Name("check") | ast.Attribute(ast.Name("canim"), "check"):
-            return True
-    return False
+def _until(
+    sources: list[tuple[str, str]],
+    trees: list[ast.Module],
+    calls: dict[str, tuple[int, int]],
+    task: Task,
+) -> list[tuple[str, str]]:
+    """Return the program until it gives the names of this task to functions of another one."""
+    others = [number for number in calls if number != task.id and number in checks.TASKS]
+    if task.id not in calls or not others:
+        return sources
+    answered = False
+    for cell, tree in enumerate(trees):
+        for statement in tree.body:
+            if (cell, statement.lineno) <= calls[task.id]:
+                continue
+            names = set(_given(statement))
+            if names & set(task.names) or (answered and "answers" in names):
+                code, name = sources[cell]
+                before = code.split("\n")[: statement.lineno - 1]
+                return [*sources[:cell], ("\n".join(before), name)]
+            answered = answered or "answers" in names
+    return sources
+
+
+def _given(statement: ast.stmt) -> Iterator[str]:
+    """Yield the names that a statement of the program gives to something."""
+    if isinstance(statement, ast.FunctionDef | ast.ClassDef):
+        yield statement.name
+        return
+    for node in ast.walk(statement):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id

@@ -1,4 +1,4 @@
-"""Check all programs and notebooks of a folder, several at the same time."""
+"""Check all programs and notebooks of a class, several at the same time."""
 
 from __future__ import annotations
 
@@ -6,22 +6,29 @@ import csv
 import errno
 import json
 import os
+import re
+import tempfile
 import threading
+from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from canim.checks.file import SUFFIXES, UnusableFile, check_file
+from canim.checks import handins, reading
+from canim.checks.file import check_file
 from canim.checks.guard import Guard, Limits, make
+from canim.checks.handins import Found
+from canim.checks.reading import NoTask, UnusableFile
 from canim.checks.report import STATES, Report, stops
 
-# One line of a class report: a part of a file.
+# One line of a class report: a part of a file, or a file or folder that was not checked.
 Row = dict[str, Any]
 ONE_BY_ONE = (
     "The files are checked one after another. To check several at the same time, install "
     'joblib:\npython -m pip install "canim[class]"'
 )
-_PASSED_OVER = ("node_modules", "site-packages")
+NOT_CHECKED, CAME_ALONG, PASSED_OVER = "not checked", "came along", "passed over"
+_NO_TASK = "no task"  # until it is known whether another program imports it
 # Letters that a spreadsheet would take for the beginning of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
@@ -33,17 +40,19 @@ def check_folder(
     limits: Limits | None = None,
     jobs: int = -1,
     progress: Callable[[int, int], None] = lambda done, all_files: None,
+    table: Path | None = None,
 ) -> list[Row]:
-    """Check every ``.py`` and ``.ipynb`` file below a folder.
+    """Check every program below a folder or in a zip, and account for all that is there.
 
     The rows are the same for any number of jobs. joblib hands the files out: with its
     ``parallel_config`` they go to another machine, which has to see the folder at the same
-    place. Without joblib, one file is checked after another.
+    place. Without joblib, one file is checked after another. Zips are unpacked into a
+    temporary folder of this machine.
 
     Parameters
     ----------
     folder : Path or str
-        The folder; hidden folders in it are passed over.
+        The folder, or a zip, which is read like a folder.
     task : str, optional
         Number of the task of all files; otherwise each file says its own.
     limits : Limits, optional
@@ -52,39 +61,81 @@ def check_folder(
         Number of files that are checked at the same time; -1: one for each core.
     progress : callable
         Is called with the number of files that are checked, and of all files.
+    table : Path, optional
+        The table that is written from the rows: it was not handed in.
 
     Returns
     -------
     list of dict
-        One row for each file and part: ``file``, ``task``, ``part``, ``result``,
-        ``message``, ``mistake``, ``hint``, ``passed`` (whether the whole file is done),
-        ``notes`` on the whole file, and its ``answers``.
+        One row for each file and part, or for a file or folder that is not checked:
+        ``file``, ``task``, ``part``, ``result``, ``message``, ``mistake``, ``hint``,
+        ``passed`` (whether the whole task is done in this file; None for what came along
+        with a program), ``notes`` on the whole file, and its ``answers``.
     """
-    files = list(find(Path(folder)))
-    given = [(str(path.absolute()), path.relative_to(folder).as_posix(), task) for path in files]
-    limits = limits or Limits()
-    rows: list[Row] = []
-    progress(0, len(files))
-    for done, checked in enumerate(_checked(given, limits, jobs), 1):
-        rows += checked
-        progress(done, len(files))
-    order = {path.relative_to(folder).as_posix(): i for i, path in enumerate(files)}
-    return sorted(rows, key=lambda row: order[row["file"]])  # the rows of a file keep theirs
+    rows: list[list[Row]] = []
+    with tempfile.TemporaryDirectory(prefix="canim-", ignore_cleanup_errors=True) as unpacked:
+        everything = list(handins.find(Path(folder), Path(unpacked).resolve()))
+        own = table and os.path.abspath(table)
+        found = [one for one in everything if not one.litter and os.path.abspath(one.path) != own]
+        programs = [i for i, one in enumerate(found) if not one.reason]
+        rows = [[_row(one.name, result=NOT_CHECKED, message=one.reason)] for one in found]
+        given = [(i, str(found[i].path.absolute()), found[i].name, task) for i in programs]
+        progress(0, len(given))
+        for done, (i, checked) in enumerate(_checked(given, limits or Limits(), jobs), 1):
+            rows[i] = checked
+            progress(done, len(given))
+        _excuse(found, rows)
+    litter = Counter(one.name for one in everything if one.litter)
+    if litter:
+        names = ", ".join(f"{name} ({count})" for name, count in sorted(litter.items()))
+        files = handins.numbered(litter.total())
+        message = f"{files} that systems and programs write for themselves: {names}."
+        rows.append([_row("", result=PASSED_OVER, message=message, passed=None)])
+    return [row for of_one in rows for row in of_one]
 
 
-def find(folder: Path) -> Iterator[Path]:
-    """Yield the programs and notebooks below `folder`, in order."""
-    for place, folders, names in os.walk(folder):
-        folders[:] = sorted(
-            name
-            for name in folders
-            if not name.startswith((".", "__")) and name not in _PASSED_OVER
-        )
-        for name in sorted(names):
-            path = Path(place, name)
-            # Reading from a pipe or a device may never end.
-            if path.suffix in SUFFIXES and not name.startswith(".") and path.is_file():
-                yield path
+def _excuse(found: list[Found], rows: list[list[Row]]) -> None:
+    """Say of the files that belong to a checked program that they came along with it."""
+    checked: dict[str, dict[Found, str]] = {}
+    for one, (row, *_) in zip(found, rows, strict=True):
+        if row["task"]:
+            checked.setdefault(_above(one.name)[0], {})[one] = row["task"]
+    # Programs of a folder with others further below are no one's there, such as a solution.
+    shared = {above for folder in checked if folder for above in _above(folder)}
+    for one, (row, *_) in zip(found, rows, strict=True):
+        own, *others = _above(one.name)
+        near = [folder for folder in [own, *(set(others) - shared)] if folder in checked]
+        harmless = one.harmless and any(_is_owned(one, folder, checked[folder]) for folder in near)
+        if row["result"] == _NO_TASK:
+            harmless = any(_is_used(one.path, program.path) for f in near for program in checked[f])
+            row["result"] = NOT_CHECKED
+        if harmless:
+            row |= {"result": CAME_ALONG, "passed": None}
+
+
+def _above(name: str) -> list[str]:
+    """Return the folders that a file or folder lies in, the nearest first; the last is ""."""
+    *folders, _ = name.split("/")
+    return ["/".join(folders[:count]) for count in range(len(folders), -1, -1)]
+
+
+def _is_owned(one: Found, folder: str, programs: dict[Found, str]) -> bool:
+    """Tell whether a file belongs to the programs of a folder, or to one of them.
+
+    Where several are of one task, it is the folder of many students. There a file is
+    somebody's by the beginning of its name, as in those that Moodle makes.
+    """
+    if len(set(programs.values())) == len(programs):
+        return True
+    owners = {tuple(p.name.removeprefix(f"{folder}/").split("_")[:2]) for p in programs}
+    return tuple(one.name.removeprefix(f"{folder}/").split("_")[:2]) in owners
+
+
+def _is_used(module: Path, program: Path) -> bool:
+    """Tell whether the program imports the module, or the package that it is in."""
+    names = "|".join(map(re.escape, (module.stem, module.parent.name)))
+    imports = rf"^\s*(?:from|import)\b[^\n]*(?<!\w)(?:{names})(?!\w)"
+    return bool(re.search(imports, reading.read(program)[0], re.MULTILINE))
 
 
 def can_share() -> bool:
@@ -97,9 +148,9 @@ def can_share() -> bool:
 
 
 def _checked(
-    given: list[tuple[str, str, str | None]], limits: Limits, jobs: int
-) -> Iterator[list[Row]]:
-    """Yield the rows of each file, in any order."""
+    given: list[tuple[int, str, str, str | None]], limits: Limits, jobs: int
+) -> Iterator[tuple[int, list[Row]]]:
+    """Yield the number and the rows of each file, in any order."""
     if jobs == 1 or not can_share():
         try:
             for one in given:
@@ -117,19 +168,24 @@ _guard: Guard | None = None
 _guard_in_use = threading.Lock()
 
 
-def check_one(path: str, name: str, task: str | None, limits: Limits) -> list[Row]:
-    """Return the rows of one file, which are called `name` there, whatever happens."""
+def check_one(
+    number: int, path: str, name: str, task: str | None, limits: Limits
+) -> tuple[int, list[Row]]:
+    """Return the number and the rows of one file, called `name` there, whatever happens."""
     global _guard
+    result = NOT_CHECKED
     # A worker of joblib's may be a thread; what is printed is a matter of the whole process.
     with _guard_in_use:
         _guard = _guard or make(many=True)
         try:
-            return _rows(name, check_file(Path(path), task=task, limits=limits, guard=_guard))
+            reports = check_file(Path(path), task=task, limits=limits, guard=_guard)
+            return number, [row for report in reports for row in _rows(name, report)]
         except UnusableFile as problem:
             message = str(problem).replace(path, "").lstrip(" ,")
+            result = _NO_TASK if isinstance(problem, NoTask) else NOT_CHECKED
         except Exception as error:
             message = f"could not be checked: {type(error).__name__}: {error}"
-    return [_row(name, result="not checked", message=_line(message))]
+    return number, [_row(name, result=result, message=_line(message))]
 
 
 def _close_guard() -> None:
@@ -172,19 +228,40 @@ def _line(text: str) -> str:
 
 
 def summary(rows: list[Row]) -> list[str]:
-    """Return a line for each file, and one for all of them."""
-    files: dict[str, list[Row]] = {}
+    """Return a line for each file and task, and some for all of them."""
+    tasks: dict[tuple[str, str], list[Row]] = {}
     for row in rows:
-        files.setdefault(row["file"], []).append(row)
-    lines = []
-    for name, parts in files.items():
-        if not parts[0]["task"]:
-            lines.append(f"{name}: {parts[0]['message']}")
+        tasks.setdefault((_shown(row["file"]), row["task"]), []).append(row)
+    lines, along, over = [], [], []
+    passed: dict[str, bool] = {}
+    for (name, task), parts in tasks.items():
+        row = parts[0]
+        if row["result"] == PASSED_OVER:
+            over.append(f"Passed over: {row['message']}")
             continue
-        done = sum(row["result"] == "done" for row in parts)
-        lines.append(f"{name}: Task {parts[0]['task']}, {done} of {len(parts)} parts done")
-    passed = sum(parts[0]["passed"] for parts in files.values())
-    return [*lines, f"All parts are done in {passed} of {len(files)} files."]
+        if row["result"] == CAME_ALONG:
+            along.append(name)
+            continue
+        done = sum(part["result"] == "done" for part in parts)
+        words = f"Task {task}, {done} of {len(parts)} parts done" if task else row["message"]
+        lines.append(f"{name}: {words}")
+        if row["notes"]:
+            lines.append(f"    {row['notes']}")
+        passed[name] = passed.get(name, True) and row["passed"]
+    if along:
+        lines.append(f"Came along with programs: {', '.join(along)}")
+    lines += over
+    checked = {place for name, task in tasks if task for place in (name, *_above(name))}
+    places = {place: None for name in passed for place in (*_above(name)[::-1], name)}
+    nothing = [place for place in places if place and place not in checked]
+    if outermost := [place for place in nothing if _above(place)[0] not in nothing]:
+        lines.append(f"Nothing was checked of: {', '.join(outermost)}")
+    return [*lines, f"All parts are done in {sum(passed.values())} of {len(passed)} files."]
+
+
+def _shown(name: str) -> str:
+    """Return a name in one line."""
+    return re.sub(r"[\r\n]", "?", name)
 
 
 def write(rows: list[Row], path: Path) -> None:
@@ -226,7 +303,7 @@ def _write_csv(rows: list[Row], path: Path) -> None:
         table = csv.writer(file)
         table.writerow([*plain, *(f"answer {question}" for question in questions)])
         for row in rows:
-            passed = {"passed": "yes" if row["passed"] else "no"}
+            passed = {"passed": {True: "yes", False: "no", None: ""}[row["passed"]]}
             cells = [(row | passed)[key] for key in plain]
             cells += [row["answers"].get(question, "") for question in questions]
             table.writerow([f"'{cell}" if cell.startswith(_FORMULA) else cell for cell in cells])
