@@ -109,8 +109,9 @@ def _missing(app):
 def _set_address(app, config):
     config.html_baseurl = RELEASE.site
     if REPOSITORY:
-        words = {"name": "The repository", "html": "All files of the course", "class": ""}
-        config.html_theme_options["footer_icons"] = [words | {"url": REPOSITORY}]
+        words = "All files of the course"
+        link = {"name": words, "html": words, "class": "", "url": REPOSITORY}
+        config.html_theme_options["footer_icons"] = [link]
 
 
 def _to_repository(name, rawtext, text, lineno, inliner, options=None, content=None):

@@ -100,6 +100,7 @@ def test_every_page_leads_to_the_repository_where_there_is_one(other_course, rea
         if name != "404.html":
             (link,) = [e for e in document.all("a") if e["text"] == "All files of the course"]
             assert link["href"] == ELSEWHERE, name
+            assert link["aria-label"] == link["text"], "who speaks to a computer says what is seen"
     links = documents["course/marking.html"].all("a")
     named = [e["text"] for e in links if e.get("href") == ELSEWHERE]
     assert named.count("the repository") == 2
