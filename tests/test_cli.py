@@ -5,12 +5,13 @@ import json
 import runpy
 import subprocess
 import sys
+import tempfile
 
 import pytest
 from PIL import Image
 
 import canim
-from canim import checks
+from canim import checks, cli
 from canim.checks import file as files
 from canim.cli import main
 
@@ -72,11 +73,19 @@ def test_start_names_the_tasks_there_are(capsys):
     assert "There is no task '7.7'. There are 0.0, 1.1" in capsys.readouterr().err
 
 
+def test_a_starter_that_is_missing_is_no_fault_of_who_asks_for_it(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(cli, "files", lambda package: tmp_path)
+    assert main(["start", "1.1"]) == 2
+    err = capsys.readouterr().err
+    assert f"canim cannot read its own starter {FILE}: No such file or directory." in err
+    assert "install canim anew" in err
+
+
 def test_start_says_why_it_cannot_write(monkeypatch, capsys):
     def refuse(*args, **kwargs):
         raise PermissionError(13, "Permission denied")
 
-    monkeypatch.setattr("builtins.open", refuse)
+    monkeypatch.setattr(cli, "open", refuse, raising=False)
     assert main(["start", "1.1"]) == 2
     assert "cannot be written here: Permission denied" in capsys.readouterr().err
 
@@ -308,6 +317,43 @@ def test_a_program_cannot_steer_the_terminal(capsys):
     assert "x = '?[2J' y" in capsys.readouterr().err
 
 
+def test_what_stops_the_check_itself_is_told_with_exit_code_2(monkeypatch, capsys):
+    def fail(*args, **options):
+        raise RuntimeError("no reason")
+
+    def full(*args, **options):
+        raise OSError(28, "No space left on device")
+
+    write("mine.py", DONE)
+    with monkeypatch.context() as change:
+        change.setattr(files, "_run", fail)
+        assert main(["check", "mine.py"]) == 2
+    err = capsys.readouterr().err
+    assert err.startswith("The check itself failed, no program is to blame: it met what nobody")
+    assert "file.py, line" in err
+    assert "RuntimeError: no reason" in err
+    with monkeypatch.context() as change:
+        change.setattr(tempfile, "mkdtemp", full)
+        assert main(["check", "mine.py"]) == 2
+    assert "cannot be copied to where it runs: [Errno 28] No space left" in capsys.readouterr().err
+
+
+def test_a_task_that_cannot_be_loaded_is_told_with_its_line(tmp_path, monkeypatch, capsys):
+    (tmp_path / "canim").mkdir()
+    (tmp_path / "canim" / "task_9_9.py").write_text("x = 1\nfrom numpy import no_such_name\n")
+    monkeypatch.setattr(checks, "__path__", [*checks.__path__, str(tmp_path / "canim")])
+    monkeypatch.setattr(checks.TASKS, "_ids", [*checks.TASKS, "9.9"])
+    write("mine.py", DONE)
+    write("theirs.py", "canim.check('9.9')")
+    for command in (["check", "mine.py", "--task", "9.9"], ["check", "theirs.py"], ["tasks"]):
+        assert main(command) == 2
+        err = capsys.readouterr().err
+        assert "The check itself failed, no program is to blame: " in err
+        assert "task_9_9.py, line 2." in err
+        assert "no_such_name" in err
+    assert main(["check", "mine.py"]) == 0  # the other tasks are checked
+
+
 def test_a_value_error_of_the_parser_is_told(monkeypatch, capsys):
     def refuse(*args):
         raise ValueError("source code string cannot contain null bytes")
@@ -336,19 +382,19 @@ def test_notebooks_are_checked_and_lines_for_ipython_passed_over():
     assert main(["check", "n.ipynb"]) == 0
 
 
-def test_a_cell_that_is_nested_too_deep_is_told(capsys):
+def test_the_cells_that_python_cannot_read_are_told(capsys):
     write("n.ipynb", notebook("x = " + "-" * 100_000 + "1", DONE))
-    assert main(["check", "n.ipynb"]) == 2
-    assert "n.ipynb, code cell 1 is nested too deep" in capsys.readouterr().err
+    assert main(["check", "n.ipynb"]) == 0
+    assert "Code cell 1 stops in line 1:" in capsys.readouterr().out
+    write("n.ipynb", notebook("x = 1", DONE + "x = ("))
+    assert main(["check", "n.ipynb"]) == 2  # nothing else says which task it is
+    assert "n.ipynb, code cell 2, line 6" in capsys.readouterr().err
 
 
-def test_a_crash_in_a_notebook_names_the_cells_line(capsys):
+def test_a_crash_in_a_notebook_names_the_cell_and_its_line(capsys):
     write("n.ipynb", notebook(DONE, "x = 1\nprint(undefined)"))
-    assert main(["check", "n.ipynb"]) == 1
-    assert "stops in line 2:\n    print(undefined)" in capsys.readouterr().out
-    write("n.ipynb", notebook(DONE, "x = ("))
-    assert main(["check", "n.ipynb"]) == 2
-    assert "n.ipynb, code cell 2, line 1" in capsys.readouterr().err
+    assert main(["check", "n.ipynb"]) == 0
+    assert "Code cell 2 stops in line 2:\n    print(undefined)" in capsys.readouterr().out
 
 
 def test_no_window_is_opened_and_the_file_runs_in_its_folder(folder):

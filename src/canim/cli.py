@@ -8,13 +8,14 @@ import glob
 import math
 import re
 import sys
+import traceback
 from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
 from canim import __version__, checks
 from canim.checks import reading
-from canim.checks.guard import Limits
+from canim.checks.guard import Fault, Limits
 from canim.checks.report import harmless, printable
 
 _COMMANDS = ("tasks", "start", "check")
@@ -84,12 +85,22 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if asked.command is None:
         parser.print_help()
         return 0
+    try:
+        return _carry_out(asked)
+    except Fault as fault:
+        return _refuse(str(fault))
+    except Exception:
+        return _refuse(str(Fault("it met what nobody foresaw.", traceback.format_exc())))
+
+
+def _carry_out(asked: argparse.Namespace) -> int:
+    """Do what was asked, and return the exit code."""
     if asked.command == "tasks":
         return _tasks()
     if asked.command == "start":
         return _start(" ".join(asked.task))
     try:
-        task = None if asked.task is None else _find(asked.task).id
+        task = None if asked.task is None else _number(asked.task)
         paths = [path for text in asked.file for path in _paths(text)]
     except ValueError as error:
         return _refuse(str(error))
@@ -105,9 +116,12 @@ def _meant(word: str) -> str:
     return "".join(difflib.get_close_matches(word, _COMMANDS, 1))
 
 
-def _find(text: str) -> checks.Task:
-    """Return the task that a text such as "1,1" means for certain."""
-    return checks.find(_certain(text) or text)
+def _number(text: str) -> str:
+    """Return the number of the task that a text such as "1,1" means for certain."""
+    number = _certain(text) or text
+    if number not in checks.TASKS:
+        checks.find(number)  # says which there are
+    return number
 
 
 def _certain(text: str) -> str:
@@ -161,18 +175,22 @@ def _tasks() -> int:
         print(title)
         for task in tasks:
             print(printable(f"  {task.id}  {task.title} ({task.minutes} minutes)"))
-    # A course may do without any of them.
-    example = "1.1" if "1.1" in checks.TASKS else [*checks.TASKS][-1]
-    print(f"\nGet one into this folder with, for example: canim start {example}")
+    print("\nGet one into this folder with, for example: canim start 1.1")
     return 0
 
 
 def _start(number: str) -> int:
     try:
-        task = _find(number)
+        task = checks.find(_number(number))
     except ValueError as error:
         return _refuse(str(error))
-    starter = (files("canim") / "starters" / task.file_name).read_text(encoding="utf-8")
+    try:
+        starter = (files("canim") / "starters" / task.file_name).read_text(encoding="utf-8")
+    except OSError as error:
+        return _refuse(
+            f"canim cannot read its own starter {task.file_name}: {error.strerror}. This is no "
+            "fault of yours: install canim anew."
+        )
     try:
         # Mode x: a file that is already there may hold somebody's work.
         with open(task.file_name, "x", encoding="utf-8") as file:
@@ -252,6 +270,8 @@ def _check_folder(
         except OSError as error:
             return _refuse(f"{table} cannot be written: {error.strerror}.")
         print(printable(f"All results are in {table} now."))
+    if any(row["message"].startswith(folder.OURS) for row in rows):
+        return 2
     return 1 if any(row["passed"] is False for row in rows) else 0
 
 

@@ -1,16 +1,20 @@
 """What guards read of the machine, and what programs are given of it."""
 
 import json
+import multiprocessing
 import os
+import pickle
 import runpy
 import socket
 import sys
 from dataclasses import asdict
 from multiprocessing import connection
+from types import SimpleNamespace
 
 import pytest
 
 from canim.checks import guard, student
+from canim.checks.file import check_file
 
 posix = pytest.importorskip("canim.checks.guard_posix") if os.name == "posix" else None
 needs_posix = pytest.mark.skipif(os.name != "posix", reason="a guard for Linux and macOS")
@@ -130,11 +134,11 @@ def test_the_server_tells_of_every_program_how_it_ended(pair, done, monkeypatch,
     adopt = ("_set_in_kernel", posix._ADOPT_ORPHANS, 1)
     assert done == [adopt, (77, {77}, limits), ("_end_family", {77})]
     theirs.close()
-    assert ours.recv(20) == (b"time\n" if asked else b"")
+    assert ours.recv(20) == posix.READY + (b"time\n" if asked else b"")
 
 
 @needs_posix
-def test_a_copy_of_the_server_becomes_the_program(pair, done, monkeypatch):
+def test_a_copy_of_the_server_becomes_the_program(pair, done, monkeypatch, capsys):
     ours, theirs = pair
     mine, pipe = socket.socketpair()
 
@@ -142,8 +146,8 @@ def test_a_copy_of_the_server_becomes_the_program(pair, done, monkeypatch):
         done.append(("exit", code))
         raise SystemExit
 
-    def run(pipe):
-        done.append(("serve", pipe.recv_bytes()))
+    def run(pipe, begins):
+        done.append(("serve", pipe.recv_bytes(), begins))
         raise MemoryError
 
     monkeypatch.setattr(posix.os, "fork", lambda: 0)
@@ -160,15 +164,16 @@ def test_a_copy_of_the_server_becomes_the_program(pair, done, monkeypatch):
         ("setsid",),
         ("_set_in_kernel", posix._DIE_WITH_PARENT, posix.signal.SIGKILL),
         ("_limit", guard.Limits()),
-        ("serve", b"hello"),
+        ("serve", b"hello", guard.be_silent),
         ("exit", 0),
     ]
+    assert "MemoryError" in capsys.readouterr().err
 
 
 @needs_posix
 def test_the_module_serves_what_stands_at_its_input(pair):
     ours, theirs = pair
-    ours.close()
+    ours.shutdown(socket.SHUT_WR)
     before = os.dup(0)
     os.dup2(theirs.fileno(), 0)
     try:
@@ -310,3 +315,121 @@ def test_a_pipe_ends_with_the_server_whoever_holds_its_other_end(pair):
         pipe.recv_bytes()
     for end in (pipe, mine, others):
         end.close()
+
+
+# --- What fails before a program begins
+
+
+@pytest.fixture
+def broken_server(tmp_path, monkeypatch):
+    """Let the server of the next guard do something before all else."""
+
+    def made(does):
+        (tmp_path / "sitecustomize.py").write_text(does)
+        monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
+        return guard.make(many=True)
+
+    return made
+
+
+@needs_posix
+def test_a_server_that_does_not_get_ready_is_a_fault_with_what_it_said(broken_server):
+    kept = broken_server("import sys\nsys.modules['canim.plotting'] = None\n")
+    with pytest.raises(guard.Fault) as caught:
+        kept.start(guard.Limits())
+    told = str(caught.value)
+    assert told.startswith(
+        "The check itself failed, no program is to blame: what starts the programs did not get "
+        "ready. It stopped in "
+    )
+    assert "guard_posix.py, line" in told
+    assert "import of canim.plotting halted" in told
+    assert str(pickle.loads(pickle.dumps(caught.value))) == told  # a worker hands it over
+    kept.close()
+
+
+@needs_posix
+def test_a_server_that_says_nothing_is_ended(broken_server, monkeypatch):
+    monkeypatch.setattr(posix, "START", 0.0)
+    kept = broken_server("import time\ntime.sleep(60)\n")
+    with pytest.raises(guard.Fault, match=r"did not get ready\.$"):
+        kept.start(guard.Limits())
+
+
+@needs_posix
+def test_a_system_that_starts_no_process_is_told(monkeypatch):
+    def refuse(*args, **options):
+        raise BlockingIOError(11, "Resource temporarily unavailable")
+
+    monkeypatch.setattr(posix.subprocess, "Popen", refuse)
+    with pytest.raises(guard.Fault, match=r"no program can be started: Resource temporarily"):
+        guard.make().start(guard.Limits())
+
+
+NO_FORK = """
+import os
+def fork():
+    raise OSError(12, "Cannot allocate memory")
+os.fork = fork
+"""
+NO_TASK = """
+import os, canim.checks
+found = canim.checks.find
+def find(task):
+    raise RuntimeError("no such task")
+canim.checks.find = find
+"""
+
+
+@needs_posix
+@pytest.mark.parametrize(
+    ("does", "words"),
+    [(NO_FORK, "Cannot allocate memory"), (NO_TASK, "RuntimeError: no such task")],
+)
+def test_what_fails_before_the_program_begins_is_a_fault(broken_server, tmp_path, does, words):
+    path = tmp_path / "task_1_1.py"
+    path.write_text("x = 1")
+    kept = broken_server(does)
+    with pytest.raises(guard.Fault, match="ended before the program began") as caught:
+        check_file(path, guard=kept)
+    assert words in str(caught.value)
+    kept.close()
+
+
+@needs_posix
+def test_a_server_that_is_gone_is_a_fault(tmp_path):
+    kept = guard.make()
+    kept.start(guard.Limits())
+    kept.end()
+    kept._server.kill()
+    kept._server.wait()
+    with pytest.raises(guard.Fault, match="no program can be started"):
+        kept.start(guard.Limits())
+
+
+def test_a_limit_that_is_too_small_to_begin_is_told_as_one(tmp_path):
+    here, there = multiprocessing.Pipe()
+    there.close()
+    late = SimpleNamespace(start=lambda limits: here, end=lambda: "time")
+    path = tmp_path / "task_1_1.py"
+    path.write_text("x = 1")
+    (report,) = check_file(path, guard=late, limits=guard.Limits(seconds=1e-9))
+    assert report.notes[0].startswith("The program did not end within 1e-09 seconds.")
+    here.close()
+
+
+def test_what_is_told_of_a_fault_is_not_endless():
+    told = str(guard.Fault("it is broken.", "x" * 10**6))
+    assert len(told) < 10**4
+    assert str(guard.Fault("it is broken.")).endswith("no program is to blame: it is broken.")
+
+
+def test_what_a_program_writes_as_an_error_is_seen_by_nobody(capfd):
+    before = os.dup(2)
+    try:
+        guard.be_silent()
+        os.write(2, b"loud")
+    finally:
+        os.dup2(before, 2)
+        os.close(before)
+    assert capfd.readouterr().err == ""

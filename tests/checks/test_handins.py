@@ -474,8 +474,7 @@ def test_in_a_folder_of_many_students_a_file_is_somebodys_by_its_name(tmp_path, 
     assert nothing == (f"Nothing was checked of: {eva}report.docx, face.png, lab/eva, more/eva")
 
 
-@pytest.mark.parametrize("name", ["handins.zip", "class.zip"])
-def test_a_zip_that_cannot_be_read_is_refused(name, tmp_path, capsys):
-    write(tmp_path, {name: b"Rar!"})
-    assert main(["check", str(tmp_path / name)]) == 2
-    assert f"{name} cannot be read as a zip" in capsys.readouterr().err
+def test_a_zip_that_cannot_be_read_is_refused(tmp_path, capsys):
+    write(tmp_path, {"handins.zip": b"Rar!"})
+    assert main(["check", str(tmp_path / "handins.zip")]) == 2
+    assert "handins.zip cannot be read as a zip: ask for it again." in capsys.readouterr().err

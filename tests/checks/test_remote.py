@@ -12,8 +12,9 @@ from canim import checks
 from canim.checks import file, remote
 from canim.checks.crash import Crash
 from canim.checks.file import check_file
+from canim.checks.guard import Fault
 from canim.checks.program import Stopped
-from canim.checks.remote import Gone, Peer, heard
+from canim.checks.remote import Gone, Peer, Remote, heard
 
 TASK = checks.TASKS["1.4"]
 HEADS = {
@@ -84,12 +85,28 @@ def test_what_is_asked_after_the_end_of_the_program_waits(check):
     assert [r.state for r in report.results] == ["unusable", "done", "waits", "waits"]
 
 
-def test_a_mistake_of_ours_is_told_as_results_that_cannot_be_compared(check, monkeypatch):
-    def break_down(*args):
-        raise ValueError
+def break_down(*args):
+    raise ValueError("no reason")
 
+
+def test_a_check_that_stops_at_right_results_is_a_fault_of_ours(check, monkeypatch):
     monkeypatch.setattr(file, "judge", break_down)
-    assert "gives results that cannot be compared" in " ".join(str(check()).split())
+    with pytest.raises(Fault, match=r"the check of Task 1\.4 stops at right results") as caught:
+        check()
+    assert "file.py, line" in str(caught.value)
+    assert "in break_down" in str(caught.value)
+    assert "ValueError: no reason" in str(caught.value)
+
+
+def test_a_check_that_stops_at_these_results_says_what_is_known(check, monkeypatch):
+    judge = file.judge
+
+    def stop_at_theirs(task, names):
+        return break_down() if type(names) is Remote else judge(task, names)
+
+    monkeypatch.setattr(file, "judge", stop_at_theirs)
+    told = " ".join(str(check()).split())
+    assert "it has changed Python or numpy, or the check is wrong here (ValueError in" in told
 
 
 @pytest.fixture
@@ -205,14 +222,14 @@ def test_a_class_of_the_student_that_is_called_like_a_builtin_does_no_harm(check
 
 
 def test_a_place_from_there_is_made_of_numbers_and_texts():
-    fields = {"line": 2.0, "code": ["x"], "sentence": None, "start": -9, "end": "3"}
+    fields = {"line": 2.0, "code": ["x"], "sentence": None, "start": -9, "end": "3", "cell": "4"}
     stopped = heard({"stopped": 5, "problem": fields})
     assert stopped.name == "5"
-    assert stopped.problem == Crash(2, "['x']", "None", 0, 3)
+    assert stopped.problem == Crash(2, "['x']", "None", 0, 3, 4)
     assert heard({"stopped": "f", "problem": 3}).problem == "3"
 
 
-@pytest.mark.parametrize("stopped", [{"line": "x"}, 7, {"other": 1}])
+@pytest.mark.parametrize("stopped", [[{"line": "x"}], 7, [{"other": 1}]])
 def test_a_false_place_of_the_stop_gives_a_plain_report(check, monkeypatch, stopped):
     asked = file.Peer.ask
 

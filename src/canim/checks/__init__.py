@@ -35,6 +35,9 @@ class _Tasks(Mapping[str, Task]):
         found: Task = module.TASK
         return found
 
+    def __contains__(self, task: object) -> bool:
+        return task in self._ids
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._ids)
 

@@ -8,7 +8,7 @@ import linecache
 import re
 import traceback
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import FrameType
 
 LONGEST = 76
@@ -19,6 +19,7 @@ class Crash:
     """Line number and text of the student's line (0 and "" where unknown), and the reason.
 
     `start` and `end` are the columns of the text that failed; they are equal where unknown.
+    `cell` is the number of the notebook's code cell; 0 in a program.
     """
 
     line: int
@@ -26,6 +27,14 @@ class Crash:
     sentence: str
     start: int = 0
     end: int = 0
+    cell: int = 0
+
+    @property
+    def place(self) -> str:
+        """Where the line is, in words; "" where unknown."""
+        cell = f"code cell {self.cell}" if self.cell else ""
+        line = f"line {self.line}" if self.line else ""
+        return ", ".join(place for place in (cell, line) if place)
 
     @property
     def marked(self) -> str:
@@ -54,14 +63,22 @@ def explain(error: BaseException, is_students: Callable[[str], bool]) -> Crash:
     start, end = (_characters(line, place) for place in (step.colno, step.end_colno))
     if step.end_lineno != step.lineno:
         end = len(line)
-    return _marked(step.lineno or 0, line, sentence(error, frame), start, end)
+    crash = _marked(step.lineno or 0, line, sentence(error, frame), start, end)
+    return replace(crash, cell=cell_of(step.filename))
+
+
+def cell_of(file_name: str) -> int:
+    """Return the number of the cell whose code has this file name, or 0."""
+    cell = re.search(r", code cell (\d+)$", file_name)
+    return int(cell[1]) if cell else 0
 
 
 def _of_syntax(error: SyntaxError) -> Crash:
     line = error.text or linecache.getline(error.filename or "", error.lineno or 0)
     start = max(0, (error.offset or 1) - 1)
     end = (error.end_offset or 0) - 1 if error.end_lineno == error.lineno else 0
-    return _marked(error.lineno or 0, line, sentence(error), start, max(end, start + 1))
+    crash = _marked(error.lineno or 0, line, sentence(error), start, max(end, start + 1))
+    return replace(crash, cell=cell_of(error.filename or ""))
 
 
 def _characters(line: str, place: int | None) -> int:
@@ -167,6 +184,7 @@ _PLAIN: list[tuple[type[BaseException], str, str]] = [
     (ImportError, "name '(?P<name>[^']+)' from", "There is nothing called {name} to import there."),
     (MemoryError, "", "An array here is larger than the memory."),
     (EOFError, "when reading a line", "The check types nothing: write the value into the program."),
+    (OSError, "No space left", "The disk of this computer is full. The program is not to blame."),
     (FileNotFoundError, "", "A file that this line opens is not there."),
     (BaseException, "", "This line stopped the program."),
 ]  # fmt: skip

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import ast
-import json
+import contextlib
 import linecache
-import os
 import re
-import shutil
 import tempfile
+import traceback
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -16,19 +15,22 @@ from pathlib import Path
 from typing import Any
 
 from canim import checks
-from canim.checks import reading
+from canim.checks import notebook, reading
+from canim.checks.beside import MOST_BESIDE, MOST_FILES_BESIDE, copy_beside
 from canim.checks.crash import explain
-from canim.checks.guard import Guard, Limits, make
+from canim.checks.guard import Fault, Guard, Limits, make
 from canim.checks.picture import png
-from canim.checks.reading import SUFFIXES, NoTask, UnusableFile
+from canim.checks.program import Program
+from canim.checks.reading import NoTask, UnusableFile
 from canim.checks.remote import Gone, Peer, Remote, crash
-from canim.checks.report import Report, Result, stops
+from canim.checks.report import Report, Result
 from canim.checks.run import judge
 from canim.checks.task import Task
 
-# Of what lies beside a program: enough for pictures and a face, not for somebody's home.
-MOST_BESIDE = 50_000_000  # in bytes
-MOST_FILES_BESIDE = 500
+NOT_ALL_BESIDE = (
+    f"Not all files beside it came along: at most {MOST_FILES_BESIDE} files, and "
+    f"{MOST_BESIDE // 10**6} MB."
+)
 
 
 def check_file(
@@ -64,19 +66,28 @@ def check_file(
     UnusableFile
         If the file is not there, is not a task or cannot be read as Python, or the figure
         cannot be written.
+    Fault
+        If the check itself fails, whatever the file.
     """
     if path.is_file() and not reading.kind(path):
         raise UnusableFile(f"{path} {reading.why_not(path)}")
     text, note = reading.read(path)
-    sources = _sources(path, text)
-    trees = _parsed(sources)
+    is_notebook = reading.kind(path) == ".ipynb" or reading.is_notebook(text)
+    sources = _sources(path, text, is_notebook)
+    trees, refused = _parsed(sources, is_notebook)
     calls = _calls(trees)
-    tasks, notes = _tasks_of(path, list(calls), task)
+    try:
+        tasks, notes = _tasks_of(path, list(calls), task)
+    except UnusableFile as problem:
+        raise [*refused, problem][0] from None
+    except Exception as error:
+        raise Fault("the check of this task cannot be loaded.", traceback.format_exc()) from error
     notes = [*([note] if note else []), *notes]
     own = guard or make()
+    limits = limits or Limits()
     try:
         reports = [
-            _run(own, path, _until(sources, trees, calls, task), task, limits or Limits())
+            _run(own, path, _until(sources, trees, calls, task), is_notebook, task, limits)
             for task in tasks
         ]
     finally:
@@ -97,7 +108,12 @@ def check_file(
 
 
 def _run(
-    guard: Guard, path: Path, sources: list[tuple[str, str]], task: Task, limits: Limits
+    guard: Guard,
+    path: Path,
+    sources: list[tuple[str, str]],
+    is_notebook: bool,
+    task: Task,
+    limits: Limits,
 ) -> Report:
     """Run the program, and judge its functions from here."""
 
@@ -105,74 +121,72 @@ def _run(
         broken = guard.end()
         return limits.sentence(broken) if broken else otherwise
 
-    with tempfile.TemporaryDirectory(prefix="canim-", ignore_cleanup_errors=True) as folder:
-        work = Path(folder).resolve() / "work"
-        copy_beside(path, sources, work)
-        name = reading.python_name(path)
-        (work / path.name).replace(work / name)
+    with contextlib.ExitStack() as used:
+        try:
+            folder = used.enter_context(
+                tempfile.TemporaryDirectory(prefix="canim-", ignore_cleanup_errors=True)
+            )
+            work = Path(folder).resolve() / "work"
+            whole = copy_beside(path, [code for code, _ in sources], work)
+            name = reading.python_name(path)
+            (work / path.name).replace(work / name)
+        except OSError as error:
+            raise Fault(f"the program cannot be copied to where it runs: {error}.") from error
         order = {"task": task.id, "codes": sources, "file": name, "folder": str(work)}
         peer = Peer(guard.start(limits), _refuse)
+        used.callback(guard.end)
         try:
-            ran = peer.ask(run=order)
-            stopped = crash(ran["stopped"]) if ran["stopped"] else None
+            peer.ask(prepare=order | {"is_notebook": is_notebook})
+        except Gone:
+            if broken := guard.end():
+                return _empty(task, limits.sentence(broken))
+            what = "the process of the program ended before the program began."
+            raise Fault(what, guard.said()) from None
+        try:
+            ran = peer.ask(run=True)
+            crashes = tuple(crash(fields) for fields in ran["stopped"])
             missing = bool(ran["missing"])
             answers = {str(question): str(text) for question, text in ran["answers"].items()}
             remote = Remote(task, peer, lambda: why("ends the program instead of returning."))
             report = judge(task, remote)
         except Gone:
             return _empty(task, why("ended before its functions could be checked."))
-        # What a program that has changed numpy itself sends may be anything at all.
-        except Exception:
-            return _empty(task, "gives results that cannot be compared: it has changed numpy.")
-        finally:
-            guard.end()
-    if stopped and missing:
-        # Where functions are broken, the report does not tell the stop that follows from it.
-        report = replace(report, notes=(f"The program {stops(stopped)}", *report.notes))
-    return replace(report, stopped=stopped, answers=answers)
+        except Exception as error:
+            return _empty(task, _not_compared(task, error))
+    if crashes and not whole:
+        report = replace(report, notes=(*report.notes, NOT_ALL_BESIDE))
+    report = replace(report, early=missing, answers=answers)
+    if is_notebook:
+        return replace(report, cells=crashes)
+    return replace(report, stopped=next(iter(crashes), None))
+
+
+def _not_compared(task: Task, error: Exception) -> str:
+    """Return what is said of results that our own code stops at.
+
+    Raises
+    ------
+    Fault
+        If it stops at right results too: then it is wrong, whatever the program sends.
+    """
+    right = {f.name: f.reference for f in task.functions if f.reference is not None}
+    try:
+        judge(task, Program(task, right))
+    except Exception as own:
+        what = f"the check of Task {task.id} stops at right results."
+        raise Fault(what, "".join(traceback.format_exception(own))) from error
+    # What a program that has changed numpy itself sends may be anything at all.
+    place = traceback.extract_tb(error.__traceback__)[-1]
+    where = f"{type(error).__name__} in {Path(place.filename).name}, line {place.lineno}"
+    return (
+        "gives results that cannot be compared: it has changed Python or numpy, or the check "
+        f"is wrong here ({where})."
+    )
 
 
 def _refuse(question: dict[str, Any]) -> dict[str, Any]:
     """Answer a question that no program of ours would ask."""
     raise Gone
-
-
-def copy_beside(path: Path, sources: list[tuple[str, str]], target: Path) -> None:
-    """Copy the file, and what it may use of the files beside it, to a new folder.
-
-    Programs beside it come along where the program has their name in it; other files and
-    folders as long as they are few and small.
-    """
-    target.mkdir()
-    shutil.copy(path, target)
-    text = "\n".join(code for code, _ in sources)
-    room, count = MOST_BESIDE, 0
-    for entry in _beside(path, text):
-        try:
-            size = entry.stat().st_size
-            # Copying a pipe or a device may never end.
-            if not entry.is_file() or size > room:
-                continue
-            copied = target / entry.relative_to(path.parent)
-            copied.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy(entry, copied)
-            room -= size
-            count += 1
-            if count == MOST_FILES_BESIDE:
-                return
-        except OSError:
-            continue  # the program will say that it misses this file, if it does
-
-
-def _beside(path: Path, text: str) -> Iterator[Path]:
-    """Yield the files that a program with this text may use, of every folder in order."""
-    for folder, folders, names in os.walk(path.parent):
-        folders[:] = sorted(name for name in folders if not name.startswith((".", "__")))
-        for name in sorted(names):
-            entry = Path(folder, name)
-            named = re.search(rf"\b{re.escape(entry.stem)}\b", text)
-            if entry.suffix not in SUFFIXES or (named and name != path.name):
-                yield entry
 
 
 def _drawn(reports: Sequence[Report], figure: Path) -> str:
@@ -199,17 +213,29 @@ def _empty(task: Task, reason: str) -> Report:
     return Report(task, results, notes=(f"The program {reason}",))
 
 
-def _parsed(sources: list[tuple[str, str]]) -> list[ast.Module]:
-    """Return the program, or each cell of the notebook, as a tree."""
+def _parsed(
+    sources: list[tuple[str, str]], is_notebook: bool
+) -> tuple[list[ast.Module], list[UnusableFile]]:
+    """Return the program as a tree, or each cell of the notebook that is Python, and why not."""
+    trees, refused = [], []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # Python gives them when the program is run
-        return [_parse(code, name) for code, name in sources]
+        for code, name in sources:
+            try:
+                trees.append(_parse(code, name, is_notebook))
+            except UnusableFile as problem:
+                # A cell that Python cannot read is told when the others are run.
+                if not is_notebook:
+                    raise
+                refused.append(problem)
+                trees.append(ast.Module([], []))
+    return trees, refused
 
 
-def _parse(code: str, name: str) -> ast.Module:
+def _parse(code: str, name: str, is_notebook: bool) -> ast.Module:
     linecache.cache[name] = (len(code), None, code.splitlines(keepends=True), name)
     try:
-        return ast.parse(code, name)
+        return notebook.parsed(code, name) if is_notebook else ast.parse(code, name)
     except SyntaxError as error:
         found = explain(error, lambda _: False)
         where = f"{name}, line {found.line}:\n{found.marked}"
@@ -220,24 +246,14 @@ def _parse(code: str, name: str) -> ast.Module:
         raise UnusableFile(f"{name} is not a Python program: {error}.") from None
 
 
-def _sources(path: Path, text: str) -> list[tuple[str, str]]:
-    if reading.kind(path) == ".py" and not reading.is_notebook(text):
+def _sources(path: Path, text: str, is_notebook: bool) -> list[tuple[str, str]]:
+    if not is_notebook:
         return [(text, str(path))]
     try:
-        cells = [cell for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
-        codes = ["".join(cell["source"]) for cell in cells]
-    except (ValueError, KeyError, TypeError, RecursionError, MemoryError):
-        raise UnusableFile(f"{path} is not a Jupyter notebook.") from None
-    return [(_python_of(code), f"{path}, code cell {i}") for i, code in enumerate(codes, 1)]
-
-
-def _python_of(code: str) -> str:
-    """Return a cell's code without lines for IPython, such as %pip and print?."""
-    try:
-        ast.parse(code)
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return re.sub(r"^([ \t]*)(?:[%!?].*|[^#\n]*\?)$", r"\1pass", code, flags=re.M)
-    return code  # in Python, a line may begin with the operator %
+        cells = notebook.cells(text)
+    except notebook.NoNotebook as problem:
+        raise UnusableFile(f"{path} {problem}") from None
+    return [(code, f"{path}, code cell {i}") for i, code in enumerate(cells, 1)]
 
 
 def _calls(trees: list[ast.Module]) -> dict[str, tuple[int, int]]:

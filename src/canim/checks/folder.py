@@ -4,22 +4,24 @@ from __future__ import annotations
 
 import csv
 import errno
+import functools
 import json
 import os
 import re
 import tempfile
 import threading
+import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from canim.checks import handins, reading
+from canim.checks import beside, handins
 from canim.checks.file import check_file
-from canim.checks.guard import Guard, Limits, make
+from canim.checks.guard import Fault, Guard, Limits, make
 from canim.checks.handins import Found
 from canim.checks.reading import NoTask, UnusableFile
-from canim.checks.report import STATES, Report, stops
+from canim.checks.report import STATES, Report
 
 # One line of a class report: a part of a file, or a file or folder that was not checked.
 Row = dict[str, Any]
@@ -27,6 +29,8 @@ ONE_BY_ONE = (
     "The files are checked one after another. To check several at the same time, install "
     'joblib:\npython -m pip install "canim[class]"'
 )
+# A failure of the check itself, at this file only.
+OURS = "could not be checked, and canim is to blame, not the file"
 NOT_CHECKED, CAME_ALONG, PASSED_OVER = "not checked", "came along", "passed over"
 _NO_TASK = "no task"  # until it is known whether another program imports it
 # Letters that a spreadsheet would take for the beginning of a formula.
@@ -96,6 +100,7 @@ def check_folder(
 
 def _excuse(found: list[Found], rows: list[list[Row]]) -> None:
     """Say of the files that belong to a checked program that they came along with it."""
+    modules = functools.cache(beside.modules_of)
     checked: dict[str, dict[Found, str]] = {}
     for one, (row, *_) in zip(found, rows, strict=True):
         if row["task"]:
@@ -107,7 +112,7 @@ def _excuse(found: list[Found], rows: list[list[Row]]) -> None:
         near = [folder for folder in [own, *(set(others) - shared)] if folder in checked]
         harmless = one.harmless and any(_is_owned(one, folder, checked[folder]) for folder in near)
         if row["result"] == _NO_TASK:
-            harmless = any(_is_used(one.path, program.path) for f in near for program in checked[f])
+            harmless = any(one.path in modules(p.path) for f in near for p in checked[f])
             row["result"] = NOT_CHECKED
         if harmless:
             row |= {"result": CAME_ALONG, "passed": None}
@@ -129,13 +134,6 @@ def _is_owned(one: Found, folder: str, programs: dict[Found, str]) -> bool:
         return True
     owners = {tuple(p.name.removeprefix(f"{folder}/").split("_")[:2]) for p in programs}
     return tuple(one.name.removeprefix(f"{folder}/").split("_")[:2]) in owners
-
-
-def _is_used(module: Path, program: Path) -> bool:
-    """Tell whether the program imports the module, or the package that it is in."""
-    names = "|".join(map(re.escape, (module.stem, module.parent.name)))
-    imports = rf"^\s*(?:from|import)\b[^\n]*(?<!\w)(?:{names})(?!\w)"
-    return bool(re.search(imports, reading.read(program)[0], re.MULTILINE))
 
 
 def can_share() -> bool:
@@ -183,8 +181,12 @@ def check_one(
         except UnusableFile as problem:
             message = str(problem).replace(path, "").lstrip(" ,")
             result = _NO_TASK if isinstance(problem, NoTask) else NOT_CHECKED
+        except Fault:
+            raise  # it would come again for every file
         except Exception as error:
-            message = f"could not be checked: {type(error).__name__}: {error}"
+            place = traceback.extract_tb(error.__traceback__)[-1]
+            where = f"{Path(place.filename).name}, line {place.lineno}"
+            message = f"{OURS}: {type(error).__name__}: {error} ({where})"
     return number, [_row(name, result=result, message=_line(message))]
 
 
@@ -197,9 +199,7 @@ def _close_guard() -> None:
 
 
 def _rows(name: str, report: Report) -> list[Row]:
-    notes = list(report.notes)
-    if report.stopped:
-        notes.insert(0, f"The program {stops(report.stopped)}")
+    notes = [*report.stops, *report.notes]
     return [
         _row(
             name,

@@ -12,17 +12,19 @@ import multiprocessing
 import os
 import subprocess
 import sys
+import tempfile
 import threading
+import traceback
 from multiprocessing import connection
+from typing import IO
 
-from canim.checks.guard import MOST_PROCESSES, Limits, environment
+from canim.checks.guard import MOST_PROCESSES, START, Fault, Limits, be_silent, environment
 from canim.checks.remote import Pipe
 
 assert sys.platform == "win32"
 
+READY = b"+"
 GRACE = 2.0
-# To start Python and to load what every program uses takes time, which is not the program's.
-START = 20.0
 # Names of Windows's JOBOBJECT_EXTENDED_LIMIT_INFORMATION and its flags.
 _EXTENDED_LIMITS, _MOST_PROCESSES, _JOB_MEMORY, _END_WITH_HOLDER = 9, 0x8, 0x200, 0x2000
 
@@ -32,29 +34,51 @@ class Guard:
 
     def __init__(self, many: bool) -> None:
         self._process: subprocess.Popen[bytes] | None = None
-        self._pipe: Pipe
+        self._pipe: connection.PipeConnection
+        self._errors: IO[bytes]
         self._timer: threading.Timer
         self._broken = ""
+        self._said = ""
 
     def start(self, limits: Limits) -> Pipe:
         """Start a process that waits for a program, and return the pipe to it."""
         self._pipe, theirs = multiprocessing.Pipe()
         handle = theirs.fileno()
         os.set_handle_inheritable(handle, True)
-        self._process = subprocess.Popen(
-            # -P: a json.py of the student's must not take the place of Python's.
-            [sys.executable, "-P", "-m", __name__, str(handle), str(limits.megabytes)],
-            env=environment(),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL,
-            stderr=subprocess.DEVNULL,
-            startupinfo=subprocess.STARTUPINFO(lpAttributeList={"handle_list": [handle]}),
-        )
-        theirs.close()
         self._broken = ""
-        self._timer = threading.Timer(START + limits.seconds, self._end_late)
+        try:
+            # In a file: a pipe that nobody reads would fill up.
+            self._errors = tempfile.TemporaryFile()  # noqa: SIM115
+            self._process = subprocess.Popen(
+                # -P: a json.py of the student's must not take the place of Python's.
+                [sys.executable, "-P", "-m", __name__, str(handle), str(limits.megabytes)],
+                env=environment(),
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.DEVNULL,
+                stderr=self._errors,
+                startupinfo=subprocess.STARTUPINFO(lpAttributeList={"handle_list": [handle]}),
+            )
+        except OSError as error:
+            raise Fault(f"no program can be started: {error.strerror}.") from error
+        finally:
+            theirs.close()
+        self._timer = threading.Timer(limits.seconds, self._end_late)
+        if not self._is_ready():
+            self._process.kill()
+            self.end()
+            raise Fault("the process of the program did not get ready.", self._said)
         self._timer.start()
         return self._pipe
+
+    def _is_ready(self) -> bool:
+        try:
+            return self._pipe.poll(START) and self._pipe.recv_bytes(1) == READY
+        except (OSError, EOFError):
+            return False
+
+    def said(self) -> str:
+        """Return what was said on standard error, by our own part of the last process."""
+        return self._said
 
     def _end_late(self) -> None:
         self._broken = "time"
@@ -71,6 +95,9 @@ class Guard:
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()
+            self._errors.seek(0)
+            self._said = self._errors.read().decode(errors="replace")
+            self._errors.close()
             self._process = None
         return self._broken
 
@@ -136,7 +163,11 @@ def main(handle: int, megabytes: float) -> None:
     try:
         os.set_handle_inheritable(handle, False)
         limit(megabytes)
-        student.serve(connection.PipeConnection(handle))
+        pipe = connection.PipeConnection(handle)
+        pipe.send_bytes(READY)
+        student.serve(pipe, be_silent)
+    except BaseException:
+        traceback.print_exc()  # seen where the program has not begun
     finally:
         os._exit(0)  # a thread that the program left behind would go on
 

@@ -7,6 +7,7 @@ waits for imports. The server watches the time, the memory and the processes of 
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import importlib
 import json
@@ -18,17 +19,28 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
-from contextlib import suppress
+import traceback
 from dataclasses import asdict
 from multiprocessing import connection
 from pathlib import Path
+from typing import IO
 
 from canim import checks
-from canim.checks.guard import LARGEST_FILE, MOST_PROCESSES, Limits, environment
+from canim.checks.guard import (
+    LARGEST_FILE,
+    MOST_PROCESSES,
+    START,
+    Fault,
+    Limits,
+    be_silent,
+    environment,
+)
 
 # What programs of the course import, beside the tasks themselves.
 IMPORTED = ("canim.plotting", "canim.data", "PIL.Image", "scipy.spatial")
+READY = b"+"
 LONGEST_PAUSE = 0.2
 # Names of Linux's <sys/prctl.h>.
 _DIE_WITH_PARENT, _ADOPT_ORPHANS = 1, 36
@@ -45,18 +57,32 @@ class Guard:
         self._many = many
         self._server: subprocess.Popen[bytes] | None = None
         self._control: socket.socket
+        self._errors: IO[bytes]
+        self._said = ""
         self._pipe: _Pipe | None = None
         self._broken = ""
 
     def start(self, limits: Limits) -> _Pipe:
         """Start a process that waits for a program, and return the pipe to it."""
-        if self._server is None:
-            self._start_server()
-        ours, theirs = socket.socketpair()
-        with theirs:
-            socket.send_fds(self._control, [json.dumps(asdict(limits)).encode()], [theirs.fileno()])
-        self._pipe = _Pipe(ours.detach(), self._control)
+        try:
+            if self._server is None:
+                self._start_server()
+            order = json.dumps(asdict(limits)).encode()
+            ours, theirs = socket.socketpair()
+            with ours, theirs:
+                socket.send_fds(self._control, [order], [theirs.fileno()])
+                self._pipe = _Pipe(ours.detach(), self._control)
+        except OSError as error:
+            self.close()
+            raise Fault(f"no program can be started: {error.strerror}.", self._said) from error
         return self._pipe
+
+    def said(self) -> str:
+        """Return what was said on standard error, by our own part of the last process."""
+        if self._server:
+            self._errors.seek(0)
+            self._said = self._errors.read().decode(errors="replace")
+        return self._said
 
     def end(self) -> str:
         """End the process and all that it has started; return the limit it broke, or ""."""
@@ -81,20 +107,31 @@ class Guard:
         if self._server:
             self._control.close()
             self._server.wait()
+            self.said()
+            self._errors.close()
             self._server = None
 
     def _start_server(self) -> None:
-        self._control, theirs = socket.socketpair()
-        with theirs:
-            self._server = subprocess.Popen(
-                # -P: a json.py of the student's must not take the place of Python's.
-                [sys.executable, "-P", "-m", __name__, str(self._many)],
-                env=environment(),
-                stdin=theirs.fileno(),
-                stdout=subprocess.DEVNULL,
-                stderr=subprocess.DEVNULL,
-                start_new_session=True,
-            )
+        with contextlib.ExitStack() as unused:
+            # In a file: a pipe that nobody reads would fill up.
+            self._errors = unused.enter_context(tempfile.TemporaryFile())
+            self._control, theirs = socket.socketpair()
+            unused.push(self._control)
+            with theirs:
+                self._server = subprocess.Popen(
+                    # -P: a json.py of the student's must not take the place of Python's.
+                    [sys.executable, "-P", "-m", __name__, str(self._many)],
+                    env=environment(),
+                    stdin=theirs.fileno(),
+                    stdout=subprocess.DEVNULL,
+                    stderr=self._errors,
+                    start_new_session=True,
+                )
+            unused.pop_all()
+        if not select.select([self._control], [], [], START)[0] or not self._control.recv(1):
+            self._server.kill()
+            self.close()
+            raise Fault("what starts the programs did not get ready.", self._said)
 
 
 class _Pipe(connection.Connection):
@@ -119,6 +156,7 @@ def serve(control: socket.socket, many: bool) -> None:
         for name in IMPORTED:
             importlib.import_module(name)
     _set_in_kernel(_ADOPT_ORPHANS, 1)
+    control.sendall(READY)
     while True:
         order, pipes, *_ = socket.recv_fds(control, 1000, 1)
         if not order:
@@ -143,7 +181,10 @@ def _run(control: socket.socket, pipe: int, limits: Limits) -> None:
         os.setsid()
         _set_in_kernel(_DIE_WITH_PARENT, signal.SIGKILL)
         _limit(limits)
-        importlib.import_module("canim.checks.student").serve(connection.Connection(pipe))
+        student = importlib.import_module("canim.checks.student")
+        student.serve(connection.Connection(pipe), be_silent)
+    except BaseException:
+        traceback.print_exc()  # seen where the program has not begun
     finally:
         os._exit(0)  # a thread that the program left behind would go on
 
@@ -185,7 +226,7 @@ def _watch(program: int, groups: set[int], control: socket.socket, limits: Limit
 def _ended() -> list[int]:
     """Return the children and adopted orphans that have ended since the last call."""
     ended = []
-    with suppress(ChildProcessError):
+    with contextlib.suppress(ChildProcessError):
         while child := os.waitpid(-1, os.WNOHANG)[0]:
             ended.append(child)
     return ended
@@ -228,7 +269,7 @@ def _end_family(groups: set[int]) -> None:
 
 def _signal(processes: set[int], number: int) -> None:
     for process in processes:
-        with suppress(ProcessLookupError, PermissionError):
+        with contextlib.suppress(ProcessLookupError, PermissionError):
             os.kill(process, number)
 
 

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from canim.checks.crash import Crash, explain
+from canim.checks.crash import Crash, cell_of, explain
 from canim.checks.task import Data, Function, Task, Unusable
 
 _OURS = str(Path(__file__).parents[1])
@@ -142,7 +142,8 @@ def _other_values(call: Callable[..., Any], function: Function, args: list[Any])
         number = code.co_firstlineno if code else 0
         line = linecache.getline(code.co_filename, number).strip() if code else ""
         words = f"It is called as {function.signature}: keep these values between its brackets."
-        return Crash(number, line, f"{words}\n(Python says: TypeError: {error})")
+        said = f"{words}\n(Python says: TypeError: {error})"
+        return Crash(number, line, said, cell=cell_of(code.co_filename) if code else 0)
     return None
 
 

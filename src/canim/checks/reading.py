@@ -134,7 +134,7 @@ def is_notebook(text: str) -> bool:
     if not text.lstrip().startswith("{"):
         return False
     try:
-        return "cells" in json.loads(text)
+        return bool({"cells", "worksheets"} & json.loads(text).keys())
     except (ValueError, RecursionError):
         return False
 

@@ -169,8 +169,8 @@ def heard(reply: dict[str, Any]) -> Stopped:
 
 def crash(fields: dict[str, Any]) -> Crash:
     """Return the crash with these fields, which the other side may have filled with anything."""
-    line, start, end = (max(0, int(fields[name])) for name in ("line", "start", "end"))
-    return Crash(line, str(fields["code"]), str(fields["sentence"]), start, end)
+    numbers = {name: max(0, int(fields[name])) for name in ("line", "start", "end", "cell")}
+    return Crash(code=str(fields["code"]), sentence=str(fields["sentence"]), **numbers)
 
 
 class Remote(Program):

@@ -7,7 +7,7 @@ import importlib
 import re
 import sys
 import textwrap
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from typing import Any
 
@@ -16,6 +16,7 @@ from canim.checks.picture import SIZE, Drawing, png
 from canim.checks.task import Task
 
 WIDTH = 88
+MOST_CELLS = 3  # of those that stop, one is often the cause of all
 STATES = {
     "done": ("✓", "done"),
     "unwritten": ("○", "not written yet"),
@@ -56,6 +57,8 @@ class Report:
     `notes` are sentences about the program as a whole; `answers` counts the questions
     answered, where the file was seen; `stopped` says where the file itself crashed, and
     `changing` names the functions that change their arguments: what comes after goes wrong.
+    `cells` are the crashes of a notebook's cells, below which all others are run. `early` tells
+    that the program, or a cell, stopped before all functions were there.
     `drawings` show expected and got of parts that differ; in HTML they are drawn.
     """
 
@@ -65,6 +68,8 @@ class Report:
     show_hints: int = 0
     how_to_hint: tuple[str, str] = ("", "")
     stopped: Crash | None = None
+    cells: tuple[Crash, ...] = ()
+    early: bool = False
     changing: tuple[str, ...] = ()
     drawings: tuple[Drawing, ...] = ()
     answers: dict[str, str] | None = None
@@ -104,12 +109,20 @@ class Report:
         return [r for r in self.results if r in first.values()]
 
     @property
+    def stops(self) -> list[str]:
+        """Sentences on where the program stopped, or cells of the notebook."""
+        if self.stopped:
+            return [f"The program {stops(self.stopped)}"]
+        told = [f"Code cell {c.cell} {stops(replace(c, cell=0))}" for c in self.cells[:MOST_CELLS]]
+        if len(self.cells) > len(told):
+            told.append(f"In all, {len(self.cells)} cells stop.")
+        return told
+
+    @property
     def _endings(self) -> list[str]:
         """Sentences below the parts."""
-        lines = list(self.notes)
         # Where a function is broken, what follows stops too: that is not told as well.
-        if self.stopped and not self.broken:
-            lines.insert(0, f"The program {stops(self.stopped)}")
+        lines = [*(self.stops if self.early or not self.broken else ()), *self.notes]
         if self.answers is not None:
             given = sum(bool(str(text).strip()) for text in self.answers.values())
             lines.append(f"Questions answered: {given} of {self.task.questions}.")
@@ -227,9 +240,9 @@ def _wrapped(text: str, head: str) -> list[str]:
 
 def stops(crash: Crash) -> str:
     """Return where and why the student's line failed, as the end of a sentence."""
-    if not crash.line:
-        return f"stops.\n{crash.sentence}"
-    return f"stops in line {crash.line}:\n{crash.marked}\n{crash.sentence}"
+    where = f"stops in {crash.place}" if crash.place else "stops"
+    shown = f":\n{crash.marked}" if crash.line else "."
+    return f"{where}{shown}\n{crash.sentence}"
 
 
 def show(report: Report) -> None:
