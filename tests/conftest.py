@@ -28,6 +28,10 @@ hypothesis.settings.register_profile(
 hypothesis.settings.load_profile("same")
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--renew", action="store_true", help="write tests/checks/hints.txt anew")
+
+
 @pytest.fixture(scope="session")
 def kept_guard() -> Iterator[Any]:
     """One guard for all tests: what programs import is loaded once."""

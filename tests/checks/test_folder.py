@@ -216,6 +216,17 @@ def test_the_table_is_for_spreadsheets(handed_in, tmp_path, monkeypatch, capsys,
     assert rows[0]["answer 10"] == "é"
 
 
+@pytest.mark.parametrize("first", ["=", "+", "-", "@", "\t", "\r"])
+@pytest.mark.parametrize("column", ["file", "message", "answers"])
+def test_no_cell_is_a_formula(first, column, tmp_path):
+    formula = f"{first}1+1"
+    row = folder._row("x.py") | {column: {"1": formula} if column == "answers" else formula}
+    folder.write([row], tmp_path / "results.csv")
+    with (tmp_path / "results.csv").open(encoding="utf-8-sig", newline="") as file:
+        (cells,) = csv.DictReader(file)
+    assert f"'{formula}" in cells.values()
+
+
 def test_results_are_written_as_json(handed_in, tmp_path, capsys):
     report = tmp_path / "results.json"
     command = ["check", str(handed_in / "ben"), "--report", str(report), "--jobs", "1"]
