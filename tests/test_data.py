@@ -144,6 +144,30 @@ def test_read_image_turns_photographs_upright(tmp_path):
     assert read_image(save(tmp_path / "photo.jpg", lying, exif=exif)).shape == (40, 20, 3)
 
 
+def test_read_image_brings_the_middle_to_a_size(tmp_path):
+    wide = np.zeros((20, 60, 3), dtype=np.uint8)
+    wide[:, 20:40] = 255
+    path = save(tmp_path / "wide.png", wide)
+    assert np.array_equal(read_image(path, size=(20, 20)), np.full((20, 20, 3), 255))
+    assert read_image(path, size=[7, 900]).shape == (900, 7, 3)
+
+
+@pytest.mark.parametrize(
+    ("size", "kind", "told"),
+    [
+        (640, TypeError, r"^size must be \(width, height\), but is 640"),
+        ((640,), ValueError, r"^size must be \(width, height\), but is \(640,\)"),
+        ((3, 4, 3), ValueError, r"^size must be \(width, height\), but is \(3, 4, 3\)"),
+        ((480, 640.0), TypeError, r"^size must be a whole number, but is 640\.0"),
+        ((0, 640), ValueError, r"^size must be a whole number from 1 up, but is 0"),
+    ],
+)
+def test_read_image_refuses_what_is_no_size(tmp_path, size, kind, told):
+    path = save(tmp_path / "x.png", np.zeros((4, 4, 3), dtype=np.uint8))
+    with pytest.raises(kind, match=told):
+        read_image(path, size=size)
+
+
 @pytest.mark.parametrize("dtype", [np.uint16, np.int32, np.float32])
 def test_read_image_refuses_deep_pictures(tmp_path, dtype):
     path = save(tmp_path / "deep.tif", np.full((4, 4), 1000, dtype=dtype))

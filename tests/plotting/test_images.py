@@ -206,3 +206,25 @@ def test_outside_of_a_terminal_nothing_is_shown(slow, monkeypatch, capsys):
     assert list(progress("abc")) == ["a", "b", "c"]
     monkeypatch.undo()
     assert capsys.readouterr().out == ""
+
+
+def test_images_of_two_sizes_are_refused_before_anything_is_done_with_them():
+    told = (
+        r"^image_a is 3000 × 4000 pixels and image_b 800 × 600; they must have one size\. "
+        r'Read both with canim\.data\.read_image\("\.\.\.", size=\(480, 640\)\)\.$'
+    )
+    with pytest.raises(ValueError, match=told):
+        pick_points(np.zeros((4000, 3000)), np.zeros((600, 800, 3)), A, B)
+    with pytest.raises(ValueError, match=r"size=\(9, 8\)"):
+        pick_points(np.zeros((8, 9)), np.zeros((9, 8)), A, B, click=True)
+
+
+def test_images_that_are_very_large_are_told(capsys):
+    small, large = np.zeros((640, 640)), np.zeros((641, 640))
+    pick_points(small, small, A, B)
+    assert capsys.readouterr().out == ""
+    pick_points(large, large, A, B)
+    assert capsys.readouterr().out == (
+        "The images have 640 × 641 pixels, so this program takes minutes or hours. "
+        'It is quick if you read both with canim.data.read_image("...", size=(639, 640)).\n'
+    )

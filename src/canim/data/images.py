@@ -162,7 +162,7 @@ def keypoints(name: str) -> Floats:
     return np.array(sets[name], dtype=np.float64)
 
 
-def read_image(path: str | os.PathLike[str]) -> Bytes:
+def read_image(path: str | os.PathLike[str], size: tuple[int, int] | None = None) -> Bytes:
     """Read a picture file as an RGB image.
 
     Parameters
@@ -170,6 +170,9 @@ def read_image(path: str | os.PathLike[str]) -> Bytes:
     path : str or path
         A JPEG, PNG, GIF or other picture file. Of a film the first frame is read; a photograph
         that carries the position of the camera is turned upright.
+    size : (int, int), optional
+        The width and height in pixels that the image shall have. Its middle is taken, as large
+        as it can be in this shape, and made smaller or larger.
 
     Returns
     -------
@@ -181,10 +184,11 @@ def read_image(path: str | os.PathLike[str]) -> Bytes:
     OSError
         If there is no such file, or it may not be read.
     TypeError
-        If `path` is not the name of a file.
+        If `path` is not the name of a file, or `size` does not hold whole numbers.
     ValueError
         If the file is damaged, is no picture or one that Pillow does not read, such as a HEIC
-        photograph, or holds greys of more than 8 bits. Colours of 16 bits are read as 8.
+        photograph, or holds greys of more than 8 bits. Colours of 16 bits are read as 8. Or if
+        `size` is not a width and a height from 1 up.
 
     Examples
     --------
@@ -194,10 +198,18 @@ def read_image(path: str | os.PathLike[str]) -> Bytes:
     >>> Image.fromarray(toy_triangles(64).image_a).save("toy.png")
     >>> read_image("toy.png").shape
     (64, 64, 3)
+    >>> read_image("toy.png", size=(30, 40)).shape
+    (40, 30, 3)
     >>> Path("toy.png").unlink()
     """
     if not isinstance(path, str | os.PathLike):
         raise TypeError(f"path must be the name of a file, but is {path!r}.")
+    if size is not None:
+        try:
+            width, height = size
+        except (TypeError, ValueError) as error:
+            raise type(error)(f"size must be (width, height), but is {size!r}.") from error
+        size = whole_number(width, "size", 1), whole_number(height, "size", 1)
     with open(path, "rb") as file:
         try:
             with Image.open(file) as picture:
@@ -216,7 +228,10 @@ def read_image(path: str | os.PathLike[str]) -> Bytes:
             f"path: {os.fspath(path)} holds greys of more than 8 bits; save it with 8."
         )
     white = Image.new("RGBA", colours.size, "white")
-    return np.array(Image.alpha_composite(white, colours).convert("RGB"))
+    image = Image.alpha_composite(white, colours).convert("RGB")
+    if size:
+        image = ImageOps.fit(image, size, Image.Resampling.LANCZOS)
+    return np.array(image)
 
 
 def _kind(head: bytes) -> str:

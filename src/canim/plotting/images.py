@@ -23,6 +23,7 @@ Item = TypeVar("Item")
 
 _LATE = 0.3  # seconds; what is done sooner needs no bar
 _BAR = 30  # characters
+_LONGEST = 640  # pixels; programs with a loop over all pixels take minutes for larger images
 
 
 def draw_points(ax: Axes, points: ArrayLike, *, numbers: bool = False) -> None:
@@ -160,6 +161,11 @@ def pick_points(
     points_a, points_b : ndarray, shape (n, 2)
         Row i of one matches row i of the other.
 
+    Raises
+    ------
+    ValueError
+        If the images differ in width or height.
+
     Examples
     --------
     >>> import numpy as np
@@ -169,6 +175,7 @@ def pick_points(
     (array([[3., 4.]]), array([[5., 4.]]))
     """
     images = np.asarray(image_a), np.asarray(image_b)
+    _check_sizes(images)
     path = _points_file()
     clicked = _click(images) if click else None
     if clicked:
@@ -180,6 +187,23 @@ def pick_points(
         return np.asarray(points_a, dtype=float), np.asarray(points_b, dtype=float)
     print(f"The key points are those in {path.name}. Delete this file to have the first ones back.")
     return saved
+
+
+def _check_sizes(images: Pair) -> None:
+    """Refuse images that cannot be warped into each other; tell if they are very large."""
+    (height, width), other = (image.shape[:2] for image in images)
+    scale = min(1.0, _LONGEST / max(height, width))
+    small = f'canim.data.read_image("...", size=({round(scale * width)}, {round(scale * height)}))'
+    if other != (height, width):
+        raise ValueError(
+            f"image_a is {width} × {height} pixels and image_b {other[1]} × {other[0]}; they must "
+            f"have one size. Read both with {small}."
+        )
+    if height * width > _LONGEST**2:
+        print(
+            f"The images have {width} × {height} pixels, so this program takes minutes or hours. "
+            f"It is quick if you read both with {small}."
+        )
 
 
 class _Clicks:
