@@ -6,6 +6,10 @@ from itertools import product
 from pathlib import Path
 from urllib.parse import urlsplit
 
+import pytest
+
+from canim.checks import BLOCKS
+
 WIDTHS = (320, 768, 1280)
 # What axe finds wrong in the dark only: other rules never ask for a colour.
 RULES = {"light": (), "dark": ("color-contrast", "link-in-text-block")}
@@ -163,3 +167,14 @@ def test_downloads(visit, task_page, tmp_path):
         download.value.save_as(target)
         assert target.stat().st_size > 0
     assert {path.suffix for path in Path(tmp_path).iterdir()} == {".py", ".ipynb", ".whl"}
+
+
+@pytest.mark.parametrize("block", BLOCKS)
+def test_the_copyright_has_no_sheet_of_its_own(visit, block):
+    """At the end of a block it often had: so on paper it is at the beginning."""
+    opened = visit(f"gallery/{block}/print.html")
+    opened.emulate_media(media="print")
+    copyright_ = opened.locator("footer").bounding_box()
+    text = opened.locator("article").bounding_box()
+    assert copyright_["height"] > 0
+    assert copyright_["y"] + copyright_["height"] <= text["y"]
