@@ -16,14 +16,18 @@ from task_page import PAGES
 MISSING = (
     "Programs do not run here: that needs JavaScript, and the course's web site, not a folder."
 )
+# The tasks that work on pictures, and how long the sides of the reader's own may be, in pixels.
+# Where a program visits each pixel by itself, more would take minutes.
+PICTURES = {"2.1": 320, "2.2": 320, "2.3": 640}
 CLOSING = f'<p class="run-missing">{MISSING}</p></canim-run>\n'
 
 
 def opening(task, program):
     """Return the start of the element; what comes in it is shown where nothing can run."""
     coloured = highlight(program, PythonLexer(), HtmlFormatter(wrapcode=False))
+    pictures = f' data-pictures="{PICTURES[task.id]}"' if task.id in PICTURES else ""
     return (
-        f'<canim-run id="run-here" data-file="{escape(task.file_name)}" data-block="{task.block}">'
+        f'<canim-run id="run-here" data-file="{escape(task.file_name)}"{pictures}>'
         f"<template>{coloured.strip()}</template>\n"
     )
 

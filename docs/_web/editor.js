@@ -1,7 +1,7 @@
 // The editor, in a file of its own: it is loaded when a reader turns to the program.
 
 import { closeBrackets, closeBracketsKeymap } from "@codemirror/autocomplete";
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
+import { defaultKeymap, history, historyKeymap, indentWithTab, isolateHistory } from "@codemirror/commands";
 import { python } from "@codemirror/lang-python";
 import { bracketMatching, indentOnInput, indentUnit, syntaxHighlighting } from "@codemirror/language";
 import { EditorState, StateEffect, StateField } from "@codemirror/state";
@@ -48,7 +48,11 @@ export function edit(parent, text, changed, run) {
   return {
     focus: () => view.focus(),
     /** @param {string} text */
-    replace: (text) => view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: text } }),
+    replace: (text) =>
+      view.dispatch({
+        changes: { from: 0, to: view.state.doc.length, insert: text },
+        annotations: isolateHistory.of("full"), // one press of Ctrl+Z brings the old text back, and no more
+      }),
     /** Mark a line; 0 takes the mark away. @param {number} line */
     mark: (line) => view.dispatch({ effects: crashed.of(line) }),
   };

@@ -25,11 +25,14 @@ export class Python {
   send(order) {
     if (!this.#worker) {
       const worker = new Worker(this.address, { type: "module" });
+      // What an ended worker still had to say is not told.
       worker.onmessage = ({ data }) => {
+        if (worker !== this.#worker) return;
         if (data.kind === "ready" || data.kind === "begin") this.isReady = true;
         this.tell(data);
       };
-      worker.onerror = (event) => this.tell({ kind: "failed", text: event.message ?? "", blobs: [] });
+      worker.onerror = (event) =>
+        worker === this.#worker && this.tell({ kind: "failed", text: event.message ?? "", blobs: [] });
       this.#worker = worker;
     }
     this.#worker.postMessage(order);

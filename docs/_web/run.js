@@ -1,14 +1,17 @@
 // <canim-run>: the program of a task's page, with an editor, Run, and what the program shows.
 
+import { Clock } from "./clock.js";
 import { button, make } from "./elements.js";
 import { Film } from "./film.js";
 import { keepOffline } from "./offline.js";
+import { Pictures } from "./pictures.js";
 import { Points } from "./points.js";
 import { markDone, noteDone } from "./progress.js";
 import { Python } from "./python.js";
 import { keep, recall, watch } from "./store.js";
 
-/** @typedef {import("./python.js").Message} Message */
+/** @typedef {import("./python.js").Message} Message
+ *  @typedef {{text: string, answers: {[kind: string]: any}}} Program with what was answered to it */
 
 const script = /** @type {HTMLScriptElement} */ (document.currentScript);
 const site = new URL("../", script.src);
@@ -41,18 +44,22 @@ function save(name, content) {
 }
 
 class Run extends HTMLElement {
-  #name = this.dataset.file ?? "";
+  #name = "";
   #starter = "";
   #text = "";
   #state = "idle"; // or "loading", when Run waits for Python; "running"
   #again = false;
   #prepared = false;
+  #isPreparing = false;
   /** @type {{[kind: string]: any}} what the reader has answered to the program */
   #answers = {};
   /** @type {string[]} what input() gets in this run */
   #texts = [];
-  /** @type {{name: string, bytes: Uint8Array}[]} */
-  #files = [];
+  /** @type {Program | null} what was here before something else took its place */
+  #before = null;
+  /** @type {string | null} the text that this tab has kept, or was told of by another one */
+  #seen = null;
+  #pictures = new Pictures();
   /** @type {Map<string | number, Film>} */
   #films = new Map();
   /** @type {ReturnType<typeof import("./editor.js").edit> | undefined} */
@@ -62,9 +69,14 @@ class Run extends HTMLElement {
   #python = new Python(new URL(`${RUN.folder}worker.js`, site).href, (message) => this.#hear(message));
 
   #code = make("div", { className: "run-code" });
+  // The editor has only those lines in the page that are in sight: on paper, and in a copy of the
+  // page, this stands in its place.
+  #whole = make("pre", { className: "run-whole" });
   #notice = make("div", { className: "run-notice", hidden: true });
   #stop = button("Stop", () => this.#end("Stopped."));
+  #back = button("Take my program back", () => this.#before && this.#replace(this.#before));
   #status = make("p", { className: "run-status", role: "status" });
+  #clock = new Clock();
   #asked = make("div");
   #printed = make("pre", { tabIndex: 0 });
   #shown = make("div");
@@ -77,20 +89,28 @@ class Run extends HTMLElement {
       return;
     }
     const code = this.querySelector("template")?.content.firstElementChild;
-    this.#text = this.#starter = code?.textContent ?? "";
+    this.#name = this.dataset.file ?? "";
+    this.#starter = code?.textContent ?? "";
+    this.#set(this.#starter);
     this.#code.append(code ?? "");
     this.#stop.disabled = true;
     this.#say(`Python runs here, in your browser. The first Run loads ${loads(this.#starter)}.`);
     const bar = make("div", { className: "run-bar", role: "group", "aria-label": "The program" }, this.#stop);
     bar.prepend(button("Run", () => this.#run(), "run-main"));
     bar.append(
-      button("Start over", () => confirm("Take the starter again? Your program will be lost.") && this.#startOver()),
+      button("Start over", () => this.#startOver()),
+      this.#back,
     );
     bar.append(button("Download .py", () => save(this.#name, [this.#text])));
-    if (this.dataset.block === "warping") bar.append(this.#pictures());
     const keys = "Ctrl+Enter runs the program. Escape, then Tab, leaves the editor.";
-    this.replaceChildren(this.#notice, this.#code, make("p", { className: "run-keys" }, keys), bar);
-    this.append(this.#status, this.#asked, this.#output);
+    this.replaceChildren(this.#notice, this.#code, this.#whole, make("p", { className: "run-keys" }, keys), bar);
+    if (this.dataset.pictures) {
+      this.#pictures.most = Number(this.dataset.pictures);
+      bar.append(this.#pictures.element);
+      this.append(this.#pictures.told);
+    }
+    this.append(this.#status, this.#clock.element, this.#asked, this.#output);
+    this.#back.hidden = true;
     this.#lookAt();
     this.#code.onpointerenter = () => this.#edit();
     bar.onpointerenter = () => this.#prepare();
@@ -100,61 +120,103 @@ class Run extends HTMLElement {
     });
     this.addEventListener("keydown", (event) => {
       if (event.key === "Enter" && (event.ctrlKey || event.metaKey) && !event.defaultPrevented) this.#run();
+      event.stopPropagation(); // a shortcut of the site would take a key that is typed: "/" begins a search
     });
+    document.addEventListener("copy", () => this.#copyWhole());
     this.#recall();
-    watch(this.#name, (kept) => kept && this.#write(kept.text));
+    watch(this.#name, (kept, replaced) => this.#follow(kept, replaced));
   }
 
-  #pictures() {
-    const input = make("input", { type: "file", multiple: true, accept: "image/*", className: "run-file" });
-    input.onchange = async () => {
-      const calls = [];
-      for (const file of input.files ?? []) {
-        this.#files.push({ name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) });
-        calls.push(`canim.data.read_image("${file.name}")`);
-      }
-      this.#say(`Your program can use ${calls.join(" and ")}, until this page is closed.`);
-    };
-    return make("label", { className: "run-pictures" }, "Add pictures", input);
+  /** Where the reader copies the page, copy all of the program. */
+  #copyWhole() {
+    if (!getSelection()?.containsNode(this.#code)) return;
+    this.classList.add("run-copied");
+    setTimeout(() => this.classList.remove("run-copied"));
   }
 
   #recall() {
     const kept = recall(this.#name);
     if (!kept) return;
     this.#answers = kept.answers;
+    this.#before = kept.before ?? null;
+    this.#seen = kept.text;
     this.#write(kept.text);
+    this.#offerBack();
     if (kept.starter === this.#starter || kept.text === this.#starter) return;
-    const choose = (/** @type {string} */ text) => {
+    const choose = (/** @type {() => void} */ choice) => {
       this.#notice.hidden = true;
-      this.#write(text);
-      this.#keep();
+      choice();
     };
     this.#notice.append(
       make("p", {}, "The starter of this page is a new one since you began. You see your own program."),
-      button("Keep my program", () => choose(this.#text)),
-      button("Take the new starter", () => choose(this.#starter)),
+      button("Keep my program", () => choose(() => this.#keep())),
+      button("Take the new starter", () => choose(() => this.#startOver())),
     );
     this.#notice.hidden = false;
   }
 
   #keep() {
-    const kept = keep(this.#name, { text: this.#text, starter: this.#starter, answers: this.#answers });
-    if (!kept) this.#say("This browser does not keep your program: download it before you leave.");
+    // Another tab may have kept what this one was not told of, as one that slept is not.
+    const other = recall(this.#name);
+    if (other && other.text !== this.#seen && other.text !== this.#text)
+      this.#before = { text: other.text, answers: other.answers };
+    this.#seen = this.#text;
+    if (!keep(this.#name, { ...this.#program(), starter: this.#starter, before: this.#before }))
+      this.#say("This browser does not keep your program: download it before you leave.");
+    this.#offerBack();
+  }
+
+  /** Show what another tab has kept. @param {any} kept @param {any} replaced what it had seen before */
+  #follow(kept, replaced) {
+    if (!kept) return;
+    const mine = this.#program();
+    const isLost = this.#seen !== null && this.#seen !== replaced?.text && kept.text !== mine.text;
+    this.#seen = kept.text;
+    this.#answers = kept.answers;
+    this.#before = isLost ? mine : (kept.before ?? null);
+    this.#write(kept.text);
+    if (isLost && kept.before?.text !== mine.text) this.#keep();
+    this.#offerBack();
+  }
+
+  #offerBack() {
+    this.#back.hidden = !this.#before || JSON.stringify(this.#before) === JSON.stringify(this.#program());
+  }
+
+  /** @returns {Program} */
+  #program() {
+    return { text: this.#text, answers: this.#answers };
+  }
+
+  /** Return whether the reader has done nothing yet. */
+  #isStarter() {
+    return this.#text === this.#starter && Object.keys(this.#answers).length === 0;
+  }
+
+  /** @param {string} text */
+  #set(text) {
+    this.#text = this.#whole.textContent = text;
   }
 
   /** @param {string} text */
   #write(text) {
     if (text === this.#text) return;
-    this.#text = text;
+    this.#set(text);
     if (this.#editor) this.#editor.replace(text);
     else this.#code.replaceChildren(make("pre", { tabIndex: 0 }, text));
   }
 
+  /** Put another program in place of the reader's, which can be taken back. @param {Program} program */
+  #replace({ text, answers }) {
+    this.#before = this.#isStarter() ? null : this.#program();
+    this.#answers = answers;
+    this.#write(text);
+    this.#keep();
+    this.#say(`This is ${this.#isStarter() ? "the starter" : "your program"} again.`);
+  }
+
   #startOver() {
-    this.#answers = {};
-    this.#write(this.#starter);
-    keep(this.#name, null);
-    this.#say("This is the starter again.");
+    if (!this.#isStarter()) this.#replace({ text: this.#starter, answers: {} });
   }
 
   /** Scroll the program to a line. */
@@ -170,7 +232,8 @@ class Run extends HTMLElement {
     const hadFocus = this.#code.contains(document.activeElement);
     this.#code.replaceChildren();
     const changed = (/** @type {string} */ text) => {
-      this.#text = text;
+      if (text === this.#text) return; // it was put there by #write
+      this.#set(text);
       this.#keep();
     };
     this.#editor = edit(this.#code, this.#text, changed, () => this.#run());
@@ -182,14 +245,14 @@ class Run extends HTMLElement {
   async #order(kind) {
     await (this.#offline ??= keepOffline(site));
     if (kind === "run" && this.#state === "idle") return; // Stop was quicker
-    const order = { kind, code: this.#text, name: this.#name, files: this.#files };
+    const order = { kind, code: this.#text, name: this.#name, files: this.#pictures.files };
     const answers = JSON.stringify({ ...this.#answers, texts: this.#texts });
     this.#python.send({ ...order, packages: packages(this.#text), answers });
   }
 
   #prepare() {
     if (this.#prepared) return;
-    this.#prepared = true;
+    this.#prepared = this.#isPreparing = true;
     this.#say(`Python is loading, ${loads(this.#text)} the first time. You can edit while it does.`);
     this.#order("load");
   }
@@ -220,7 +283,9 @@ class Run extends HTMLElement {
   /** @param {string} words */
   #ended(words) {
     this.#state = "idle";
+    this.#isPreparing = false;
     this.#stop.disabled = true;
+    this.#clock.stop();
     this.#output.removeAttribute("aria-busy");
     this.#say(words);
     if (this.#again) this.#run();
@@ -235,9 +300,11 @@ class Run extends HTMLElement {
   /** @param {Message} message */
   #hear(message) {
     const { kind, text, blobs } = message;
-    if (kind === "ready" && this.#state === "idle") this.#say("Python is ready.");
+    // Not after Stop: then Python is loaded anew, and nobody waits.
+    if (kind === "ready" && this.#isPreparing && this.#state === "idle") this.#say("Python is ready.");
     else if (kind === "begin") this.#begin();
     else if (kind === "text") this.#print(text);
+    else if (kind === "advance") this.#clock.note(text);
     else if (kind === "figure") this.#show(message);
     else if (kind === "frame") this.#films.get(message.film)?.add(blobs, message.interval);
     else if (kind === "report") this.#report(message);
@@ -256,6 +323,7 @@ class Run extends HTMLElement {
   #begin() {
     this.#state = "running";
     this.#say("Running …");
+    this.#clock.start();
     this.#films.clear();
     this.#output.setAttribute("aria-busy", "true");
     this.#printed.remove();
@@ -295,12 +363,11 @@ class Run extends HTMLElement {
 
   /** @param {Message} message */
   #points(message) {
-    const use = (/** @type {any} */ chosen) => {
-      this.#answers[message.name] = chosen;
+    const changed = (/** @type {any} */ chosen) => {
+      this.#answers = { ...this.#answers, [message.name]: chosen };
       this.#keep();
-      this.#run();
     };
-    this.#asked.append(new Points(message, use).element);
+    this.#asked.append(new Points(message, changed, () => this.#run()).element);
   }
 
   /** @param {string} prompt */

@@ -33,11 +33,13 @@ AT_ONCE = 200  # prints that are sent one by one; after them, what was printed i
 DPI, FILM_DPI = 160, 100
 PAGE_DPI = 100  # a figure of 6.4 inches is 640 pixels wide on the page
 FRAMES = 500  # of a film; what comes later is left out
+OFTEN = 0.2  # seconds from one word on how far a run is to the next
 
 _save_film, _begin_film = Animation.save, Animation.__init__
 _pick_points, _animate_chain = canim.plotting.pick_points, canim.plotting.animate_chain
 
 post = answers = output = None
+told = 0  # when it was told how far a run is
 films, saved = {}, {}  # by figure: its film, and the file that the program saved it in
 original = {}  # by module: its names, which a program may give to something else
 printing, failing = np.get_printoptions(), np.geterr()
@@ -59,6 +61,7 @@ def begin(to_page):
         "report", html=report._repr_html_(), task=report.task.id, done=report.done
     )
     canim.plotting.pick_points = pick_points
+    canim.plotting.progress = progress
     canim.plotting.animate_chain = animate_chain
     canim.plotting.weight_sliders = weight_sliders
     warnings.showwarning = _warn
@@ -195,7 +198,8 @@ def show(*args, **options):
             film = films[figure]
             figure.set_layout_engine("none")  # it was laid out for the still, and need not be again
             figure.set_dpi(FILM_DPI)
-            film.save("film", writer=Frames(id(figure), film._interval), dpi=FILM_DPI)
+            writer = Frames(id(figure), film._interval, getattr(film, "_save_count", 0))
+            film.save("film", writer=writer, dpi=FILM_DPI)
 
 
 def describe(figure):
@@ -223,18 +227,20 @@ def _note_file(film, filename, *args, **options):
 class Frames(AbstractMovieWriter):
     """Sends the frames of a film as they are drawn."""
 
-    def __init__(self, name, interval):
+    def __init__(self, name, interval, count):
         super().__init__()
         # To draw every other picture takes half the time, and looks smooth enough.
         self._every = 2 if interval < 50 else 1
         self._name, self._interval = name, interval * self._every
         self._last, self._count = b"", 0
+        self._of_all = f" of {count}" if count else ""
 
     def setup(self, fig, outfile, dpi=None):
         super().setup(fig, outfile, dpi)
 
     def grab_frame(self, **options):
         self._count += 1
+        _tell_how_far(f"Film: picture {self._count}{self._of_all}")
         if self._count % self._every or self._count > FRAMES:
             return
         canvas = self.fig.canvas
@@ -261,6 +267,24 @@ def _png(image):
     file = io.BytesIO()
     image.save(file, "PNG", compress_level=1)
     return file.getvalue()
+
+
+# -- How far it is ---------------------------------------------------------
+
+
+def progress(items):
+    """As `canim.plotting.progress`; the page shows how far it is."""
+    for number, item in enumerate(items, 1):
+        _tell_how_far(f"{number} of {len(items)}")
+        yield item
+
+
+def _tell_how_far(text):
+    """Tell how far the program is, but not more often than can be read."""
+    global told
+    if time.monotonic() - told > OFTEN:
+        post("advance", text=text)
+        told = time.monotonic()
 
 
 # -- Files -----------------------------------------------------------------
@@ -292,13 +316,18 @@ def keep_file(name, content):
 
 def pick_points(image_a, image_b, points_a, points_b, *, click=False):
     """As `canim.plotting.pick_points`; points are moved in the page, for the next run."""
+    given = _pick_points(image_a, image_b, points_a, points_b)
+    sizes = [np.shape(image)[1::-1] for image in (image_a, image_b)]
+    frames = [[-0.5, width - 0.5, -0.5, height - 0.5] for width, height in sizes]
     if click:
         images = [Image.fromarray(np.asarray(image)) for image in (image_a, image_b)]
-        frames = [(-0.5, image.width - 0.5, -0.5, image.height - 0.5) for image in images]
-        lists = _points("points", images, frames, [points_a, points_b], 1)
-        last = [np.subtract(image.size, 1) for image in images]  # the centre of a corner's pixel
-        points_a, points_b = (np.clip(points, 0, end) for points, end in zip(lists, last))
-    return _pick_points(image_a, image_b, points_a, points_b)
+        lists = _points("points", images, frames, given, 1)
+    elif lists := _chosen("points", frames):
+        print("The key points are those that you have moved: click = True shows them again.")
+    else:
+        return given
+    last = [np.subtract(size, 1) for size in sizes]  # the centre of a corner's pixel
+    return tuple(np.clip(np.reshape(points, (-1, 2)), 0, end) for points, end in zip(lists, last))
 
 
 def animate_chain(ax, reach, forward, angles, offsets, goals, *, click=False):
@@ -319,12 +348,17 @@ def weight_sliders(*args, **options):
     return []
 
 
+def _chosen(kind, frames):
+    """Return the points that the reader has moved on pictures of this size, else None."""
+    chosen = answers.get(kind)
+    return chosen["lists"] if chosen and chosen["frames"] == frames else None
+
+
 def _points(kind, images, frames, lists, step):
     """Return the points that the reader has chosen for these pictures, else the given ones."""
     first = [np.asarray(points, dtype=float).tolist() for points in lists]
     frames = [[float(number) for number in frame] for frame in frames]
-    chosen = answers.get(kind)
-    lists = chosen["lists"] if chosen and chosen["frames"] == frames else first
+    lists = _chosen(kind, frames) or first
     pictures = [_png(image.convert("RGB")) for image in images]
     post("points", *pictures, name=kind, frames=frames, lists=lists, first=first, step=step)
     return [np.array(points, dtype=float).reshape(-1, 2) for points in lists]

@@ -2,10 +2,15 @@
 
 const PREFIX = "canim ";
 
+/** @param {string | null} text @returns {any} */
+function parse(text) {
+  return JSON.parse(text ?? "null");
+}
+
 /** @param {string} key @returns {any} */
 export function recall(key) {
   try {
-    return JSON.parse(localStorage.getItem(PREFIX + key) ?? "null");
+    return parse(localStorage.getItem(PREFIX + key));
   } catch {
     return null;
   }
@@ -22,10 +27,10 @@ export function keep(key, value) {
   }
 }
 
-/** Tell when another tab has changed what is kept.
- *  @param {string} key @param {(value: any) => void} changed */
+/** Tell when another tab has changed what is kept, and what that has replaced.
+ *  @param {string} key @param {(value: any, replaced: any) => void} changed */
 export function watch(key, changed) {
   window.addEventListener("storage", (event) => {
-    if (event.key === PREFIX + key) changed(recall(key));
+    if (event.key === PREFIX + key) changed(recall(key), parse(event.oldValue));
   });
 }

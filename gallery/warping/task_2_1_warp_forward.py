@@ -53,6 +53,11 @@ for ax, name, image, source, target in [
     ax.imshow(warped, interpolation="nearest")
 
 # %%
+# **Other pictures.** How to take the portraits, or pictures of your own, says
+# :ref:`Task 2.3 <task-2-3>`. Here take small ones, for instance with ``size=(240, 320)``: the
+# loops visit every pixel once for each triangle.
+
+# %%
 # Theory
 # ------
 # A computer sees only colours, not a nose and not a corner. You have to tell it what belongs

@@ -52,6 +52,11 @@ for row, name, image, source, target in [
         ax.imshow(warped, interpolation="nearest")
 
 # %%
+# **Other pictures.** How to take the portraits, or pictures of your own, says
+# :ref:`Task 2.3 <task-2-3>`. Here take small ones, for instance with ``size=(240, 320)``: the
+# loops visit every pixel once for each triangle.
+
+# %%
 # Theory
 # ------
 # Forward warping is like throwing balls into a row of boxes. Some boxes get two, some get

@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import canim
-from canim.plotting import draw_triangulation, pick_points
+from canim.plotting import draw_triangulation, pick_points, progress
 
 plt.style.use("canim.style")
 
@@ -72,6 +72,25 @@ fig, ax = plt.subplots(figsize=(3.6, 4))
 # glasses and the cap of a navy uniform. Eyes, nose and mouth stay sharp all the time, they move
 # from one face to the other.
 face_film = canim.plotting.animate_morph(ax, faces)
+
+# %%
+# **Other pictures.** To take the two portraits in your program, change the line with
+# ``toy_triangles`` to:
+#
+# .. code-block:: python
+#
+#    image_a, image_b, points_a, points_b = canim.data.portraits()
+#
+# For pictures of your own, press *Add pictures*. On your own computer, put the files beside
+# the program. Below the line with ``toy_triangles`` write two lines with their names:
+#
+# .. code-block:: python
+#
+#    image_a = canim.data.read_image("a.jpg", size=(480, 640))
+#    image_b = canim.data.read_image("b.jpg", size=(480, 640))
+#
+# Both must have one ``size``, here 480 pixels wide and 640 high. Set ``click = True`` and put
+# key points on them: the eyes, the nose, the mouth, the outline of the head.
 
 # %%
 # Theory
@@ -185,7 +204,7 @@ def morph(image_a, image_b, points_a, points_b, triangles, t):
 canim.check("2.3", points_between=points_between, morph=morph)
 
 moments = np.linspace(0, 1, 21)
-frames = [morph(image_a, image_b, points_a, points_b, triangles, t) for t in moments]
+frames = [morph(image_a, image_b, points_a, points_b, triangles, t) for t in progress(moments)]
 canim.warping.save_gif("morph.gif", frames, fps=10)
 
 # Picture: Five images in a row. Nothing is written yet: all five are loud pink squares.
