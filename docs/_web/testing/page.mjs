@@ -57,7 +57,10 @@ export class FakeWorker {
   }
 }
 
+const { setInterval } = globalThis;
 Object.assign(globalThis, {
+  // What a page still waits for does not keep its test alive.
+  setInterval: (...given) => setInterval(...given).unref(),
   Worker: FakeWorker,
   confirm: () => true,
   RUN: {
