@@ -167,7 +167,11 @@ def _all(theirs, ours, folder):
 def _known(folder):
     """Return what the scripts in the page know of the files."""
     packages = json.loads((folder / LIST).read_bytes())["packages"]
-    sizes = {path.name: transferred(path) for path in folder.iterdir()}
+    files = {
+        path.name: (path.stat().st_size, transferred(path), _hash(path))
+        for path in folder.iterdir()
+    }
+    sizes = {name: travels for name, (_, travels, _) in files.items()}
 
     def closure(names):
         return {*names}.union(*(closure(packages[name]["depends"]) for name in names))
@@ -183,6 +187,7 @@ def _known(folder):
         "first": FIRST,
         "needs": NEEDS,
         "bytes": {"first": core + first, **more},
+        "files": files,
     }
 
 
@@ -213,9 +218,12 @@ def _list_packages(folder):
             }
     for package in packages.values():
         package["depends"] = [name for name in package["depends"] if name not in NOT_FOR_PNG]
-        content = (folder / package["file_name"]).read_bytes()
-        package["sha256"] = hashlib.sha256(content).hexdigest()
+        package["sha256"] = _hash(folder / package["file_name"])
     (folder / LIST).write_bytes(_bytes(whole | {"packages": packages}))
+
+
+def _hash(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def _bytes(data):

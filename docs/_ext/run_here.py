@@ -43,6 +43,7 @@ def _prepare(app, config):
     worker, scripts = Path(app.doctreedir, "worker"), Path(app.doctreedir, "scripts")
     bundled = _bundle(["worker.js"], worker, "esm", known)
     bundled += _bundle(["editor.js"], scripts, "esm", known)
+    del known["files"]  # the page need not know them
     known["version"] = _digest(files, worker, scripts / "editor.js")
     known["folder"] = f"_run/{known['version']}/"
     bundled += _bundle(["run.js"], scripts, "iife", known)
@@ -118,7 +119,17 @@ def _hand_out(app, exception):
         for files in app.run_parts:
             shutil.copytree(files, part, dirs_exist_ok=True)
         part.rename(target)
-    _bundle(["service_worker.js"], app.outdir, "iife", {})
+    _bundle(["service_worker.js"], app.outdir, "iife", {"hashes": _hashes(app.outdir)})
+
+
+def _hashes(site):
+    """Return the hashes of what has a version in its address, and is kept by browsers."""
+    paths = [path for part in ("_run", "_static") for path in sorted((site / part).rglob("*"))]
+    return {
+        path.relative_to(site).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
+        for path in paths
+        if path.is_file()
+    }
 
 
 class Licences(SphinxDirective):
@@ -146,5 +157,7 @@ def setup(app):
     app.add_directive("licences-of-run", Licences)
     app.connect("config-inited", _prepare)
     app.connect("html-page-context", _add_script)
-    app.connect("build-finished", _hand_out)
+    app.connect(
+        "build-finished", _hand_out, priority=950
+    )  # when style sheets and scripts are whole
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -3,18 +3,17 @@
 import { Clock } from "./clock.js";
 import { button, make } from "./elements.js";
 import { Film } from "./film.js";
+import { askAnew, explain, megabytes, packages, progress } from "./loading.js";
 import { keepOffline } from "./offline.js";
 import { Pictures } from "./pictures.js";
 import { Points } from "./points.js";
 import { markDone, noteDone } from "./progress.js";
 import { Python } from "./python.js";
+import { script, site } from "./site.js";
 import { keep, recall, watch } from "./store.js";
 
 /** @typedef {import("./python.js").Message} Message
  *  @typedef {{text: string, answers: {[kind: string]: any}}} Program with what was answered to it */
-
-const script = /** @type {HTMLScriptElement} */ (document.currentScript);
-const site = new URL("../", script.src);
 
 /** Return why programs cannot run here, "" where they can. */
 function hindrance() {
@@ -22,18 +21,9 @@ function hindrance() {
     return "Programs cannot run here, because this page was opened from a folder. On the course's web site they can.";
   if (typeof WebAssembly !== "object" || !("Worker" in window))
     return "Programs cannot run here: this browser has no WebAssembly. A newer one has it.";
+  if (window.origin === "null")
+    return "Programs cannot run here, because another page shows this one inside it. Open it in a window of its own.";
   return "";
-}
-
-/** @param {string} program */
-function packages(program) {
-  return [...RUN.first, ...Object.keys(RUN.needs).filter((name) => new RegExp(RUN.needs[name]).test(program))];
-}
-
-/** @param {string} program */
-function loads(program) {
-  const bytes = ["first", ...packages(program)].map((name) => RUN.bytes[name] ?? 0);
-  return `${Math.ceil(bytes.reduce((sum, more) => sum + more) / 1e6)} MB`;
 }
 
 /** Hand a file to the reader. @param {string} name @param {BlobPart[]} content */
@@ -64,9 +54,12 @@ class Run extends HTMLElement {
   #films = new Map();
   /** @type {ReturnType<typeof import("./editor.js").edit> | undefined} */
   #editor;
+  #misses = 0; // of the editor's script
   /** @type {Promise<void> | undefined} */
   #offline;
-  #python = new Python(new URL(`${RUN.folder}worker.js`, site).href, (message) => this.#hear(message));
+  #address = new URL(`${RUN.folder}worker.js`, site).href;
+  #isDoubtful = false; // whether the browser may hold a wrong script of the worker
+  #python = new Python(this.#address, (message) => this.#hear(message));
 
   #code = make("div", { className: "run-code" });
   // The editor has only those lines in the page that are in sight: on paper, and in a copy of the
@@ -94,7 +87,7 @@ class Run extends HTMLElement {
     this.#set(this.#starter);
     this.#code.append(code ?? "");
     this.#stop.disabled = true;
-    this.#say(`Python runs here, in your browser. The first Run loads ${loads(this.#starter)}.`);
+    this.#say(`Python runs here, in your browser. The first Run loads ${megabytes(this.#starter)} MB.`);
     const bar = make("div", { className: "run-bar", role: "group", "aria-label": "The program" }, this.#stop);
     bar.prepend(button("Run", () => this.#run(), "run-main"));
     bar.append(
@@ -227,8 +220,16 @@ class Run extends HTMLElement {
 
   /** Put the editor in place of the text. */
   async #edit() {
-    const { edit } = await import(new URL(`editor.js${new URL(script.src).search}`, script.src).href);
+    const address = new URL(`editor.js${new URL(script.src).search}`, script.src);
+    // Browsers do not ask again for a script that did not come.
+    if (this.#misses) address.searchParams.set("again", String(this.#misses));
+    const editor = await import(address.href).catch(() => null);
     if (this.#editor) return;
+    if (!editor) {
+      this.#misses++;
+      this.#say("The editor has not come. Look at your connection to the network, then click on the program again.");
+      return;
+    }
     const hadFocus = this.#code.contains(document.activeElement);
     this.#code.replaceChildren();
     const changed = (/** @type {string} */ text) => {
@@ -236,7 +237,7 @@ class Run extends HTMLElement {
       this.#set(text);
       this.#keep();
     };
-    this.#editor = edit(this.#code, this.#text, changed, () => this.#run());
+    this.#editor = editor.edit(this.#code, this.#text, changed, () => this.#run());
     this.#lookAt();
     if (hadFocus) this.#editor?.focus();
   }
@@ -244,6 +245,8 @@ class Run extends HTMLElement {
   /** @param {"load" | "run"} kind */
   async #order(kind) {
     await (this.#offline ??= keepOffline(site));
+    if (this.#isDoubtful) await askAnew(this.#address);
+    this.#isDoubtful = false;
     if (kind === "run" && this.#state === "idle") return; // Stop was quicker
     const order = { kind, code: this.#text, name: this.#name, files: this.#pictures.files };
     const answers = JSON.stringify({ ...this.#answers, texts: this.#texts });
@@ -253,7 +256,7 @@ class Run extends HTMLElement {
   #prepare() {
     if (this.#prepared) return;
     this.#prepared = this.#isPreparing = true;
-    this.#say(`Python is loading, ${loads(this.#text)} the first time. You can edit while it does.`);
+    this.#say(`${progress(this.#text, 0)} You can edit while it does.`);
     this.#order("load");
   }
 
@@ -265,7 +268,7 @@ class Run extends HTMLElement {
     this.#texts = texts;
     this.#prepare();
     this.#state = this.#python.isReady ? "running" : "loading";
-    this.#say(this.#python.isReady ? "Running …" : `Python is loading, ${loads(this.#text)} the first time.`);
+    this.#say(this.#python.isReady ? "Running …" : progress(this.#text, 0));
     this.#stop.disabled = false;
     this.#status.scrollIntoView({ block: "nearest" });
     this.#order("run");
@@ -275,7 +278,6 @@ class Run extends HTMLElement {
   #end(words) {
     this.#again = false;
     this.#python.end();
-    for (const film of this.#films.values()) film.isComplete = true;
     this.#ended(words);
     this.#order("load");
   }
@@ -286,6 +288,7 @@ class Run extends HTMLElement {
     this.#isPreparing = false;
     this.#stop.disabled = true;
     this.#clock.stop();
+    for (const film of this.#films.values()) film.isComplete = true;
     this.#output.removeAttribute("aria-busy");
     this.#say(words);
     if (this.#again) this.#run();
@@ -300,8 +303,9 @@ class Run extends HTMLElement {
   /** @param {Message} message */
   #hear(message) {
     const { kind, text, blobs } = message;
+    if (kind === "progress") this.#progress(message.done);
     // Not after Stop: then Python is loaded anew, and nobody waits.
-    if (kind === "ready" && this.#isPreparing && this.#state === "idle") this.#say("Python is ready.");
+    else if (kind === "ready" && this.#isPreparing && this.#state === "idle") this.#say("Python is ready.");
     else if (kind === "begin") this.#begin();
     else if (kind === "text") this.#print(text);
     else if (kind === "advance") this.#clock.note(text);
@@ -313,11 +317,23 @@ class Run extends HTMLElement {
     else if (kind === "points") this.#points(message);
     else if (kind === "question") this.#question(text);
     else if (kind === "end") this.#ended(text);
-    else if (kind === "failed") {
-      this.#python.end();
-      this.#prepared = false;
-      this.#ended(`Python has stopped. Press Run to begin again. ${text}`);
-    }
+    else if (kind === "failed") this.#fail(message);
+  }
+
+  /** @param {number} done bytes */
+  #progress(done) {
+    // Not after Stop: then Python is loaded anew, from what the browser has, and nobody waits.
+    if (this.#isPreparing || this.#state !== "idle") this.#say(progress(this.#text, done));
+  }
+
+  /** @param {Message} failure */
+  async #fail(failure) {
+    this.#python.end();
+    this.#isDoubtful = ["script", "policy"].includes(failure.reason);
+    const { words, isRenewed } = await explain(/** @type {any} */ (failure), this.#address);
+    if (this.#python.hasBegun) return; // the reader was quicker
+    this.#ended(words);
+    if (isRenewed) this.#asked.replaceChildren(button("Load the page again", () => location.reload()));
   }
 
   #begin() {

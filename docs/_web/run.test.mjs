@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
-import { test } from "node:test";
+import { registerHooks } from "node:module";
+import { beforeEach, test } from "node:test";
 import { FakeWorker, show } from "./testing/page.mjs";
 
 await import("./run.js");
@@ -9,11 +10,32 @@ const PAGE = `<canim-run data-file="task_1_1.py" data-block="interpolation">
 b = 2  # TODO
 </pre></template><p class="run-missing">Nothing runs here.</p></canim-run>`;
 
+/** @type {HTMLElement} */
+let page;
+const press = (/** @type {string} */ name) =>
+  [...page.querySelectorAll("button")].find(({ textContent }) => textContent === name)?.click();
+const status = () => page.querySelector(".run-status")?.textContent;
+const turn = () => new Promise((resolve) => setTimeout(resolve));
+
+/** Press Run; return the worker. */
+async function run() {
+  press("Run");
+  await turn();
+  return /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
+}
+
+/** @param {() => any} condition */
+async function until(condition) {
+  while (!condition()) await turn();
+}
+
+beforeEach(() => {
+  localStorage.clear();
+  page = show(PAGE);
+});
+
 test("Run sends the program to Python, and shows what comes", async () => {
-  const page = show(PAGE);
-  page.querySelector(".run-main").click();
-  await new Promise((resolve) => setTimeout(resolve));
-  const [worker] = FakeWorker.made;
+  const worker = await run();
   assert.deepEqual(
     worker.orders.map(({ kind, code }) => [kind, code]),
     [
@@ -23,7 +45,136 @@ test("Run sends the program to Python, and shows what comes", async () => {
   );
   worker.tell("begin");
   worker.tell("text", { text: "3" });
+  worker.tell("figure", { alt: "A curve", width: 64, height: 48, film: 0 });
+  worker.tell("report", { html: "<p>All pass.</p>", task: "1.1", done: true });
+  worker.tell("file", { name: "a.txt" });
   worker.tell("end", { text: "Your program ended after 0.1 s." });
-  assert.equal(page.querySelector(".run-output pre").textContent, "3");
-  assert.equal(page.querySelector(".run-status").textContent, "Your program ended after 0.1 s.");
+  assert.equal(page.querySelector(".run-output pre")?.textContent, "3");
+  assert.equal(page.querySelector(".run-output img")?.getAttribute("alt"), "A curve");
+  assert.equal(status(), "Your program ended after 0.1 s.");
+  assert.match(page.textContent ?? "", /All pass\..*Save a\.txt/);
+});
+
+test("a line that stops the program is told", async () => {
+  page.querySelector(".run-code")?.dispatchEvent(new PointerEvent("pointerenter"));
+  await until(() => page.querySelector(".cm-content"));
+  const worker = await run();
+  worker.tell("begin");
+  worker.tell("crash", { text: "The program stops in line 2.", line: 2 });
+  assert.match(page.querySelector(".run-crash")?.textContent ?? "", /line 2/);
+});
+
+test("what a program asks is answered in its next run", async () => {
+  const worker = await run();
+  worker.tell("begin");
+  worker.tell("question", { text: "Who are you?" });
+  worker.tell("end", { text: "Your program waits for an answer." });
+  const field = /** @type {HTMLInputElement} */ (page.querySelector("form input"));
+  field.value = "Ada";
+  page.querySelector("form")?.dispatchEvent(new Event("submit"));
+  await turn();
+  assert.deepEqual(JSON.parse(worker.orders.at(-1).answers).texts, ["Ada"]);
+});
+
+test("it is told how far Python has come", async () => {
+  page.querySelector(".run-bar")?.dispatchEvent(new PointerEvent("pointerenter"));
+  await turn();
+  const worker = /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
+  assert.equal(status(), "Python is loading: 0 of 12 MB. You can edit while it does.");
+  worker.tell("progress", { done: 6_000_000, waits: "silent" });
+  assert.equal(status(), "Python is loading: 6 of 12 MB.");
+  worker.tell("ready");
+  assert.equal(status(), "Python is ready.");
+  press("Run");
+  press("Stop");
+  await turn();
+  FakeWorker.made.at(-1)?.tell("progress", { done: 6_000_000, waits: "silent" });
+  assert.equal(status(), "Stopped.");
+});
+
+test("what goes wrong is told, and Run begins anew", async () => {
+  const worker = await run();
+  worker.tell("failed", { reason: "lost", file: "numpy.whl" });
+  await until(() => /connection was lost/.test(status() ?? ""));
+  assert.equal(worker.isEnded, true);
+  const next = await run();
+  assert.notEqual(next, worker);
+  next.tell("begin");
+  next.tell("end", { text: "Your program ended." });
+  assert.equal(status(), "Your program ended.");
+});
+
+test("a script of the worker that was wrong is asked for anew before the next run", async (context) => {
+  /** @type {any[]} */
+  const asked = [];
+  context.mock.method(globalThis, "fetch", async (/** @type {any} */ address, /** @type {any} */ options) => {
+    asked.push(`${String(address).split("/").pop()} ${options.cache}`);
+    return new Response("", { headers: { "Content-Type": "text/javascript" } });
+  });
+  const worker = await run();
+  worker.onerror({});
+  await until(() => /does not start/.test(status() ?? ""));
+  asked.length = 0;
+  press("Run");
+  await until(() => FakeWorker.made.at(-1) !== worker);
+  assert.deepEqual(asked, ["worker.js reload"]);
+});
+
+test("who presses Run before the reason is known is not stopped by it", async (context) => {
+  /** @type {(answer: Response) => void} */
+  let answer = () => {};
+  context.mock.method(globalThis, "fetch", () => new Promise((resolve) => (answer = resolve)));
+  page.querySelector(".run-bar")?.dispatchEvent(new PointerEvent("pointerenter"));
+  await turn();
+  FakeWorker.made.at(-1)?.tell("failed", { reason: "missing", file: "numpy.whl" });
+  const worker = await run();
+  worker.tell("begin");
+  answer(new Response(""));
+  await turn();
+  assert.equal(status(), "Running …");
+});
+
+test("a page older than the site offers to load itself again", async (context) => {
+  const newer = '<script src="_static/run.js?v=2"></script>';
+  context.mock.method(globalThis, "fetch", async () => new Response(newer));
+  const reload = context.mock.method(location, "reload", () => {});
+  const worker = await run();
+  worker.tell("failed", { reason: "missing", file: "worker.js" });
+  await until(() => /renewed/.test(status() ?? ""));
+  press("Load the page again");
+  assert.equal(reload.mock.callCount(), 1);
+});
+
+test("where nothing can run, the page says why", () => {
+  const why = (/** @type {object} */ place, /** @type {string} */ name, /** @type {any} */ value) => {
+    const before = Object.getOwnPropertyDescriptor(place, name);
+    Object.defineProperty(place, name, { value, configurable: true });
+    const words = show(PAGE).querySelector(".run-missing")?.textContent ?? "";
+    Reflect.deleteProperty(place, name);
+    if (before) Object.defineProperty(place, name, before);
+    return words;
+  };
+  assert.match(why(globalThis, "origin", "null"), /another page shows this one inside it/);
+  assert.match(why(location, "protocol", "file:"), /opened from a folder/);
+  assert.match(why(globalThis, "WebAssembly", undefined), /no WebAssembly/);
+});
+
+test("an editor that does not come is told, and asked for again", async () => {
+  /** @type {string[]} */
+  const asked = [];
+  const hooks = registerHooks({
+    resolve(name, context, next) {
+      if (!name.includes("editor.js")) return next(name, context);
+      asked.push(name.split("/").pop() ?? "");
+      if (asked.length === 1) throw new TypeError("Failed to fetch");
+      return next(name.split("?")[0], context);
+    },
+  });
+  const turnTo = () => page.querySelector(".run-code")?.dispatchEvent(new PointerEvent("pointerenter"));
+  turnTo();
+  await until(() => /editor has not come/.test(status() ?? ""));
+  turnTo();
+  await until(() => page.querySelector(".cm-content"));
+  assert.deepEqual(asked, ["editor.js", "editor.js?again=1"]);
+  hooks.deregister();
 });

@@ -73,7 +73,7 @@ Object.assign(globalThis, {
   },
 });
 // run.js finds the site by its own address; what it imports when needed is beside it.
-const script = { src: new URL("../run.js?v=1", import.meta.url).href };
+const script = { src: new URL("../run.js", import.meta.url).href };
 Object.defineProperty(document, "currentScript", { value: script, configurable: true });
 
 /** Let all that waits for nothing but its turn have it. */
