@@ -16,6 +16,9 @@ from downloads import RELEASE
 from markupsafe import Markup
 from task_page import fold
 
+# Where site data is blocked, or the disk is full, Sphinx's search and the theme's switch end at
+# localStorage; it stands in for it, and must be there before all other scripts.
+STAND_IN = Path(__file__).parents[1].joinpath("_web/stand_in.js").read_text(encoding="utf-8")
 SITE = RELEASE.site.rstrip("/")
 REPOSITORY = RELEASE.repository
 LONGEST = 160
@@ -58,6 +61,8 @@ def _describe(app, pagename, templatename, context, doctree):
         f'<meta {"property" if ":" in name else "name"}="{name}" content="{escape(value)}">\n'
         for name, value in tags.items()
     )
+    if pagename != "404":  # whose only script this would be
+        context["metatags"] += f"<script>\n{STAND_IN}</script>\n"
 
 
 def _first_sentences(doctree):

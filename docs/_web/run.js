@@ -10,7 +10,7 @@ import { Points } from "./points.js";
 import { markDone, noteDone } from "./progress.js";
 import { Python } from "./python.js";
 import { script, site } from "./site.js";
-import { keep, recall, watch } from "./store.js";
+import { carryOver, keep, recall, watch } from "./store.js";
 
 /** @typedef {import("./python.js").Message} Message
  *  @typedef {{text: string, answers: {[kind: string]: any}}} Program with what was answered to it */
@@ -68,6 +68,7 @@ class Run extends HTMLElement {
   #notice = make("div", { className: "run-notice", hidden: true });
   #stop = button("Stop", () => this.#end("Stopped."));
   #back = button("Take my program back", () => this.#before && this.#replace(this.#before));
+  #unkept = make("p", { className: "run-unkept", role: "status" });
   #status = make("p", { className: "run-status", role: "status" });
   #clock = new Clock();
   #asked = make("div");
@@ -102,7 +103,7 @@ class Run extends HTMLElement {
       bar.append(this.#pictures.element);
       this.append(this.#pictures.told);
     }
-    this.append(this.#status, this.#clock.element, this.#asked, this.#output);
+    this.append(this.#unkept, this.#status, this.#clock.element, this.#asked, this.#output);
     this.#back.hidden = true;
     this.#lookAt();
     this.#code.onpointerenter = () => this.#edit();
@@ -154,8 +155,9 @@ class Run extends HTMLElement {
     if (other && other.text !== this.#seen && other.text !== this.#text)
       this.#before = { text: other.text, answers: other.answers };
     this.#seen = this.#text;
-    if (!keep(this.#name, { ...this.#program(), starter: this.#starter, before: this.#before }))
-      this.#say("This browser does not keep your program: download it before you leave.");
+    const kept = keep(this.#name, { ...this.#program(), starter: this.#starter, before: this.#before });
+    const words = kept ? "" : "This browser does not keep your program: download it before you leave.";
+    if (this.#unkept.textContent !== words) this.#unkept.textContent = words;
     this.#offerBack();
   }
 
@@ -401,5 +403,6 @@ class Run extends HTMLElement {
   }
 }
 
+carryOver();
 customElements.define("canim-run", Run);
 markDone();

@@ -145,6 +145,31 @@ test("a page older than the site offers to load itself again", async (context) =
   assert.equal(reload.mock.callCount(), 1);
 });
 
+test("a program that is not kept is told until it is kept again", async () => {
+  page.querySelector(".run-code")?.dispatchEvent(new PointerEvent("pointerenter"));
+  await until(() => page.querySelector(".cm-content"));
+  const type = () => {
+    const content = /** @type {any} */ (page.querySelector(".cm-content"));
+    const { view } = content.cmTile;
+    view.dispatch({ changes: { from: 0, insert: "#" } });
+  };
+  const told = () => page.querySelector(".run-unkept")?.textContent;
+  const { localStorage: storage } = globalThis;
+  const setItem = () => {
+    throw new DOMException("full", "QuotaExceededError");
+  };
+  Object.assign(globalThis, { localStorage: { getItem: () => null, setItem } });
+  type();
+  assert.match(told() ?? "", /does not keep your program/);
+  const worker = await run();
+  worker.tell("begin");
+  worker.tell("end", { text: "Your program ended." });
+  assert.match(told() ?? "", /does not keep your program/);
+  Object.assign(globalThis, { localStorage: storage });
+  type();
+  assert.equal(told(), "");
+});
+
 test("where nothing can run, the page says why", () => {
   const why = (/** @type {object} */ place, /** @type {string} */ name, /** @type {any} */ value) => {
     const before = Object.getOwnPropertyDescriptor(place, name);

@@ -1,5 +1,6 @@
 """What a reader is told, and can do, when servers, networks and browsers fail."""
 
+import json
 import re
 import shutil
 import threading
@@ -280,3 +281,35 @@ def test_too_little_memory_is_told(chromium, server):
     reader.run()
     reader.is_told("There is not enough memory for Python. Close other tabs and programs")
     small.close()
+
+
+def test_where_storage_is_blocked_all_works_and_a_warning_stays(chromium, server, tmp_path):
+    """Blocked in the browser's settings, as its users do it."""
+    profile = tmp_path / "Default"
+    profile.mkdir()
+    settings = {"profile": {"default_content_setting_values": {"cookies": 2}}}
+    (profile / "Preferences").write_text(json.dumps(settings), encoding="utf-8")
+    context = chromium.browser_type.launch_persistent_context(
+        tmp_path, executable_path=shutil.which("chromium"), args=["--no-sandbox"]
+    )
+    reader = Reader(context)
+    reader.open(f"{server.root}{MOUNT}search.html?q=hermite")
+    reader.page.wait_for_selector("#search-results li a")
+    reader.page.locator(".theme-toggle:visible").first.click()
+    assert reader.page.locator("body").get_attribute("data-theme") != "auto"
+    reader.open(f"{server.root}{MOUNT}{FIRST}")
+    reader.type("# mine\n")
+    reader.run()
+    reader.sees_a_picture()
+    assert reader.page.get_by_text("This browser does not keep your program").is_visible()
+    assert reader.said == []
+    context.close()
+
+
+def test_two_copies_of_the_site_do_not_share_texts(server, reader):
+    reader.open(f"{server.root}{MOUNT}{FIRST}")
+    reader.type("# mine\n")
+    reader.open(f"{server.root}{COPY}{FIRST}")
+    assert not reader.text().startswith("# mine")
+    reader.open(f"{server.root}{MOUNT}{FIRST}")
+    assert reader.text().startswith("# mine\n")
