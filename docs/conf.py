@@ -25,6 +25,7 @@ extensions = [
     "sphinx_design",
     "sphinxcontrib.bibtex",
     "sphinx_copybutton",
+    "sphinx.ext.githubpages",  # which else leaves out all that begins with "_"
     # ours
     "run_here",
     "formulas",
@@ -41,6 +42,7 @@ extensions = [
     "downloads",
     "take_away",
     "page_head",
+    "security",
     "styles",
 ]
 

@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import threading
+import zipfile
 from contextlib import contextmanager
 from functools import partial
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -30,7 +31,9 @@ class Handler(SimpleHTTPRequestHandler):
         root = next((root for root in (MOUNT, COPY) if path.startswith(root)), None)
         parts = path.removeprefix(root or "").split("/")
         file = Path(self.directory, *parts)
-        if root is None or not file.is_file():
+        # As free hosts do, that make a site of what they find.
+        passed_over = path.count("/_") and not Path(self.directory, ".nojekyll").exists()
+        if root is None or passed_over or not file.is_file():
             return self.send_error(404)
         self.send(file, file.read_bytes(), self.server.wrong.get(file.name))
         return None
@@ -313,3 +316,33 @@ def test_two_copies_of_the_site_do_not_share_texts(server, reader):
     assert not reader.text().startswith("# mine")
     reader.open(f"{server.root}{MOUNT}{FIRST}")
     assert reader.text().startswith("# mine\n")
+
+
+def test_all_works_under_the_policy_of_the_documentation(server, reader):
+    reader.open(f"{server.root}{MOUNT}run_here.html")
+    name, policy = reader.page.locator(".content-security-policy").inner_text().split(": ", 1)
+    server.headers = {name: policy}
+    for page in ("index.html", "search.html?q=hermite", "api/index.html", WARP, FIRST):
+        reader.open(f"{server.root}{MOUNT}{page}")
+        if "search" in page:
+            reader.page.wait_for_selector("#search-results li a")
+    reader.type("# mine\n")
+    reader.run()
+    reader.sees_a_picture()
+    theme = reader.page.locator(".theme-toggle:visible").first
+    theme.click()
+    assert reader.page.locator("body").get_attribute("data-theme") != "auto"
+    assert reader.said == []
+
+
+def test_the_zip_works_on_a_server_as_it_does_from_a_folder(site, reader, tmp_path):
+    with zipfile.ZipFile(site / "canim-course.zip") as course:
+        course.extractall(tmp_path)
+    failed = []
+    reader.page.on("response", lambda r: failed.append(r.url) if r.status >= 400 else None)
+    with serving(tmp_path / "canim-course") as server:
+        for page in ("index.html", FIRST):
+            reader.open(f"{server.root}{MOUNT}{page}")
+        assert reader.page.locator("canim-run pre").first.is_visible()
+        assert "Programs do not run here" in reader.page.locator(".run-missing").inner_text()
+    assert reader.said + failed == []
