@@ -346,3 +346,14 @@ def test_the_zip_works_on_a_server_as_it_does_from_a_folder(site, reader, tmp_pa
         assert reader.page.locator("canim-run pre").first.is_visible()
         assert "Programs do not run here" in reader.page.locator(".run-missing").inner_text()
     assert reader.said + failed == []
+
+
+def test_descriptions_of_pictures_can_be_read_in_the_dark(server, reader):
+    reader.page.emulate_media(color_scheme="dark")
+    reader.page.route(re.compile(r"_images/"), lambda route: route.abort())
+    reader.open(f"{server.root}{MOUNT}{FIRST}")
+    colours = reader.page.locator(".picture img").first.evaluate(
+        "image => [getComputedStyle(image).color, getComputedStyle(image).backgroundColor]"
+    )
+    dark, light = (sum(map(int, re.findall(r"\d+", colour)[:3])) for colour in colours)
+    assert light - dark > 400
