@@ -198,7 +198,9 @@ def lint(session):
         session.run(*NODE, "node_modules/@biomejs/biome/bin/biome", "ci", "--error-on-warnings")
         session.run(*NODE, "node_modules/typescript/bin/tsc")
         covered = ["--experimental-test-coverage", "--test-coverage-include=_web/*.js"]
-        session.run(*NODE, "--test", *covered, "_web/*.test.mjs")
+        for reporter, place in (("spec", "stdout"), ("./_web/testing/coverage.mjs", "stderr")):
+            covered += [f"--test-reporter={reporter}", f"--test-reporter-destination={place}"]
+        session.run(*NODE, "--test", "--test-timeout=60000", *covered, "_web/*.test.mjs")
 
 
 @nox.session
