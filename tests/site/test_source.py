@@ -92,6 +92,7 @@ def test_formulas_are_rendered(documents, page):
     formulas = [e for e in document.all("span", "div") if e.get("class") in ("math", "formula")]
     assert len(document.all("math")) >= len(formulas)
     assert "katex-error" not in text
+    assert [e for e in document.all("mtable") if e.get("columnspacing") == ""] == []
     assert not [e for e in document.elements if "mathjax" in (e.get("src") or "").lower()]
 
 
