@@ -2,8 +2,9 @@
 
 /** Begin to keep what is loaded; what the page has loaded already, too. A browser that cannot,
  *  or is slow to begin, goes on without.
- *  @param {URL} site its root */
-export async function keepOffline(site) {
+ *  @param {URL} site its root
+ *  @param {URL} editor on its way perhaps: it is neither loaded yet nor comes through the worker */
+export async function keepOffline(site, editor) {
   const container = navigator.serviceWorker;
   if (!container) return; // an old browser, or an address that is not secure
   const begun = container.controller
@@ -13,7 +14,7 @@ export async function keepOffline(site) {
   const registered = container
     .register(new URL("service_worker.js", site))
     .then(() => begun)
-    .then(() => container.controller?.postMessage([location.href.split("#")[0], ...loaded]))
+    .then(() => container.controller?.postMessage([location.href.split("#")[0], editor.href, ...loaded]))
     .catch(() => {});
   await Promise.race([registered, new Promise((resolve) => setTimeout(resolve, 1000))]);
 }

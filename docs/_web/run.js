@@ -15,6 +15,8 @@ import { carryOver, keep, recall, watch } from "./store.js";
 /** @typedef {import("./python.js").Message} Message
  *  @typedef {{text: string, answers: {[kind: string]: any}}} Program with what was answered to it */
 
+const editorAddress = new URL(`editor.js${new URL(script.src).search}`, script.src);
+
 /** Return why programs cannot run here, "" where they can. */
 function hindrance() {
   if (location.protocol === "file:")
@@ -222,7 +224,7 @@ class Run extends HTMLElement {
 
   /** Put the editor in place of the text. */
   async #edit() {
-    const address = new URL(`editor.js${new URL(script.src).search}`, script.src);
+    const address = new URL(editorAddress);
     // Browsers do not ask again for a script that did not come.
     if (this.#misses) address.searchParams.set("again", String(this.#misses));
     const editor = await import(address.href).catch(() => null);
@@ -246,7 +248,7 @@ class Run extends HTMLElement {
 
   /** @param {"load" | "run"} kind */
   async #order(kind) {
-    await (this.#offline ??= keepOffline(site));
+    await (this.#offline ??= keepOffline(site, editorAddress));
     if (this.#isDoubtful) await askAnew(this.#address);
     this.#isDoubtful = false;
     if (kind === "run" && this.#state === "idle") return; // Stop was quicker

@@ -4,6 +4,7 @@ import os
 import shutil
 import sys
 import threading
+from contextlib import contextmanager
 from functools import cached_property, partial
 from html.parser import HTMLParser
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
@@ -60,15 +61,33 @@ class Handler(SimpleHTTPRequestHandler):
 
 
 @pytest.fixture(scope="session")
-def address(site):
+def serve(site):
+    """Serve the site: `with serve() as (address, end)`; a test may end the server before."""
+
+    @contextmanager
+    def start():
+        server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=str(site)))
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+
+        def end():
+            server.shutdown()
+            thread.join()
+            server.server_close()
+
+        try:
+            yield f"http://127.0.0.1:{server.server_port}{MOUNT}", end
+        finally:
+            end()
+
+    return start
+
+
+@pytest.fixture(scope="session")
+def address(serve):
     """Address of the site on a server of ours."""
-    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=str(site)))
-    thread = threading.Thread(target=server.serve_forever)
-    thread.start()
-    yield f"http://127.0.0.1:{server.server_port}{MOUNT}"
-    server.shutdown()
-    thread.join()
-    server.server_close()
+    with serve() as (address, _):
+        yield address
 
 
 @pytest.fixture(scope="session")
