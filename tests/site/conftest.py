@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-sys.path.insert(0, str(ROOT / "docs/_ext"))
+sys.path[:0] = [str(ROOT / "docs/_ext"), str(Path(__file__).parent)]
 os.environ["MPLBACKEND"] = "agg"
 AXE_FILE = ROOT / "docs/node_modules/axe-core/axe.min.js"
 CHECK = """rules => axe.run(document, {resultTypes: ["violations"],
@@ -60,13 +60,40 @@ class Handler(SimpleHTTPRequestHandler):
         pass
 
 
+class Recorder(Handler):
+    """Has every page keep what it says on the console; not every browser hands that out."""
+
+    SCRIPT = b"""<script>
+      window.said = [];
+      const tell = (...words) => said.push(words.join(" "));
+      for (const kind of ["error", "warn", "log", "info"]) console[kind] = tell;
+      const say = ({ message, target }) => tell(message ?? `not loaded: ${target.outerHTML}`);
+      addEventListener("error", say, true);
+      addEventListener("unhandledrejection", (e) => tell(e.reason));
+      addEventListener("securitypolicyviolation", (e) => tell(e.violatedDirective, e.blockedURI));
+    </script>"""
+
+    def do_GET(self):
+        path = Path(self.translate_path(self.path.split("?")[0]))
+        if path.suffix != ".html" or not path.is_file():
+            super().do_GET()
+            return
+        page = path.read_bytes().replace(b"<head>", b"<head>" + self.SCRIPT, 1)
+        self.send_response(200)
+        self.send_header("Content-Type", "text/html")
+        self.send_header("Content-Length", str(len(page)))
+        self.end_headers()
+        self.wfile.write(page)
+
+
 @pytest.fixture(scope="session")
 def serve(site):
     """Serve the site: `with serve() as (address, end)`; a test may end the server before."""
 
     @contextmanager
-    def start():
-        server = ThreadingHTTPServer(("127.0.0.1", 0), partial(Handler, directory=str(site)))
+    def start(recorded=False):
+        handler = Recorder if recorded else Handler
+        server = ThreadingHTTPServer(("127.0.0.1", 0), partial(handler, directory=str(site)))
         thread = threading.Thread(target=server.serve_forever)
         thread.start()
 
