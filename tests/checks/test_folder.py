@@ -148,6 +148,11 @@ def test_a_fault_of_ours_at_one_file_is_a_row_that_says_so(handed_in, monkeypatc
     assert "canim is to blame" in capsys.readouterr().out
 
 
+def test_a_task_that_there_is_not_is_told_of_each_file(handed_in, alone):
+    rows = by_file(check_folder(handed_in / "ann", task="7.7"))
+    assert "There is no task '7.7'." in rows["task_1_1.py"][0]["message"]
+
+
 def test_where_a_program_or_a_cell_stops_is_told_once(tmp_path, alone):
     (tmp_path / "task_1_1.py").write_text("x = 1 / 0\ndef hermite_basis(t): pass\n")
     cells = [{"cell_type": "code", "source": source} for source in ("x = 1", "x = 1 / 0")]

@@ -1,11 +1,17 @@
 """Notebooks are read as Jupyter reads them: of any version, with what is IPython's own."""
 
+import ast
+import asyncio
+import builtins
 import json
 import os
+import sys
 
+import IPython
 import pytest
+from matplotlib import pyplot
 
-from canim.checks import notebook
+from canim.checks import notebook, shell
 from canim.checks.file import check_file
 
 DONE = """import canim
@@ -178,7 +184,7 @@ CELLS = {
         "%%writefile -a curves.py\n\nnine = 9",
         "%%file 'data 1.txt'\nhere",
         "import curves\nassert curves.cube(2) == 8 and curves.nine == 9",
-        "assert open('data 1.txt').read() == 'here'",
+        "import pathlib\nassert pathlib.Path('data 1.txt').read_text() == 'here'",
         "%run curves.py\nassert cube(3) == 27",
         "name = 'curves'\nnine = 1\n%run -i {name}\nassert nine == 9\n%run $name.py",
     ],
@@ -333,3 +339,63 @@ def test_a_stop_that_is_in_no_line_of_the_notebook_names_the_cell(check):
     stop = "import asyncio\nasyncio.get_running_loop().stop()\nawait asyncio.sleep(9)"
     (told,) = check(DONE, stop, "await asyncio.sleep(0)").stops
     assert told.startswith("Code cell 2 stops.\nThis line stopped the program.")
+
+
+# --- The shell, in the process of the test
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    """Run cells, or a program, as the student's process does; what that changes is put back."""
+    for name in ("display", "get_ipython"):
+        monkeypatch.setattr(builtins, name, None, raising=False)
+    monkeypatch.setattr(IPython, "get_ipython", IPython.get_ipython)
+    monkeypatch.setattr(sys, "path", [str(tmp_path), *sys.path])
+    monkeypatch.chdir(tmp_path)
+    for name in ("A", "B"):
+        monkeypatch.setenv(name, "")
+    loops = []
+    made = asyncio.Runner
+    monkeypatch.setattr(asyncio, "Runner", lambda: loops.append(made()) or loops[-1])
+
+    def ran(*codes, is_notebook=True):
+        names = {}
+        named = [(code, "cell") for code in codes]
+        shell.open_shell(named, names, is_notebook)
+        run_code = shell.runner(named)
+        for code in codes:
+            tree = notebook.parsed(code, "cell")
+            flags = ast.PyCF_ALLOW_TOP_LEVEL_AWAIT
+            run_code(compile(tree, "cell", "exec", flags, dont_inherit=True), names)
+        return names
+
+    yield ran
+    for loop in loops:
+        loop.close()
+    for module in ("curves", "made", "more"):
+        sys.modules.pop(module, None)
+    pyplot.close("all")
+    pyplot.ioff()
+
+
+@pytest.mark.parametrize("kind", sorted(CELLS.keys() - {"future"}))
+def test_the_shell_does_what_cells_ask_for(run, kind):
+    assert run(*CELLS[kind])
+
+
+def test_the_shell_serves_programs_that_were_made_from_notebooks(run):
+    names = run(EXPORTED, is_notebook=False)
+    assert (names["x"], names["y"], names["z"], names["w"], names["out"]) == (1, 2, 1, 4, [])
+
+
+def test_the_shell_runs_other_notebooks(run, tmp_path):
+    (tmp_path / "other.ipynb").write_text(of("%time four = 4"))
+    assert run("%run other.ipynb")["four"] == 4
+
+
+@pytest.mark.parametrize("is_notebook", [True, False])
+def test_the_shell_stands_in_for_ipython(run, monkeypatch, is_notebook):
+    for name in shell._MODULES:
+        monkeypatch.setitem(sys.modules, name, None)
+    asked = run(IMPORTS, is_notebook=is_notebook)["IPython"].get_ipython()
+    assert (asked is not None) == is_notebook
