@@ -52,6 +52,8 @@ async function answer(event) {
   if (kept) return kept;
   try {
     const response = await fetch(request);
+    // It is kept below, but perhaps not before it is asked for again.
+    if (fixed && request.cache === "reload") await (await caches.open(NAME)).delete(request.url).catch(() => {});
     // The page need not wait for the end of it; and without room it is shown all the same.
     event.waitUntil(keep(request, response.clone()).catch(() => {}));
     return response;
