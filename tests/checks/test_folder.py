@@ -338,9 +338,7 @@ def test_the_page_for_teachers_shows_how_to_use_a_cluster(root, handed_in, tmp_p
     shutil.copytree(handed_in, tmp_path / "task_1_2")
     program = tmp_path / "example.py"
     program.write_text(example, encoding="utf-8")
-    ran = subprocess.run(
-        [sys.executable, program], cwd=tmp_path, capture_output=True, text=True, timeout=120
-    )
+    ran = subprocess.run([sys.executable, program], cwd=tmp_path, capture_output=True, text=True)
     assert ran.returncode == 0, ran.stderr
     rows = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     assert rows == check_folder(handed_in, jobs=1)
