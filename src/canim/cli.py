@@ -175,7 +175,9 @@ def _tasks() -> int:
         print(title)
         for task in tasks:
             print(printable(f"  {task.id}  {task.title} ({task.minutes} minutes)"))
-    print("\nGet one into this folder with, for example: canim start 1.1")
+    # A course may do without any of them.
+    example = "1.1" if "1.1" in checks.TASKS else [*checks.TASKS][-1]
+    print(f"\nGet one into this folder with, for example: canim start {example}")
     return 0
 
 

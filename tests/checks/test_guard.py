@@ -171,9 +171,10 @@ def test_a_copy_of_the_server_becomes_the_program(pair, done, monkeypatch, capsy
 
 
 @needs_posix
-def test_the_module_serves_what_stands_at_its_input(pair):
+def test_the_module_serves_what_stands_at_its_input(pair, monkeypatch):
     ours, theirs = pair
     ours.shutdown(socket.SHUT_WR)
+    monkeypatch.setattr(sys, "argv", [posix.__file__, "False"])
     before = os.dup(0)
     os.dup2(theirs.fileno(), 0)
     try:

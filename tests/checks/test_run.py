@@ -402,8 +402,10 @@ def test_a_task_is_named_by_a_text(number):
 
 
 def test_check_names_unknown_tasks_and_functions():
-    with pytest.raises(ValueError, match=r"no task '9\.9'; there are 0\.0, 1\.1"):
+    with pytest.raises(ValueError, match=r"no task '9\.9'\. There are 0\.0, 1\.1"):
         canim.check("9.9")
+    with pytest.raises(KeyError, match=r"9\.9"):
+        checks.TASKS["9.9"]
     with pytest.raises(TypeError, match=r"Task 1\.1 has nothing called basis; .* hermite_basis"):
         canim.check("1.1", basis=double)
 
