@@ -384,7 +384,8 @@ class Run extends HTMLElement {
   /** @param {Message} message */
   #points(message) {
     const changed = (/** @type {any} */ chosen) => {
-      this.#answers = { ...this.#answers, [message.name]: chosen };
+      const { [message.name]: _, ...others } = this.#answers;
+      this.#answers = chosen ? { ...others, [message.name]: chosen } : others;
       this.#keep();
     };
     this.#asked.append(new Points(message, changed, () => this.#run()).element);

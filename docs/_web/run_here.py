@@ -14,6 +14,7 @@ import os
 import sys
 import time
 import warnings
+import zlib
 from contextlib import suppress
 from pathlib import Path
 from types import ModuleType
@@ -319,12 +320,18 @@ def pick_points(image_a, image_b, points_a, points_b, *, click=False):
     given = _pick_points(image_a, image_b, points_a, points_b)
     sizes = [np.shape(image)[1::-1] for image in (image_a, image_b)]
     frames = [[-0.5, width - 0.5, -0.5, height - 0.5] for width, height in sizes]
+    shown = [np.asarray(image) for image in (image_a, image_b)]
     if click:
-        images = [Image.fromarray(np.asarray(image)) for image in (image_a, image_b)]
-        lists = _points("points", images, frames, given, 1)
-    elif lists := _chosen("points", frames):
+        images = [Image.fromarray(image) for image in shown]
+        lists = _points("points", images, frames, given, 1, shown)
+    elif lists := _chosen("points", _key(given, frames, shown)):
         print("The key points are those that you have moved: click = True shows them again.")
     else:
+        if "points" in answers:
+            print(
+                "The key points are the given ones: those that you have moved belong to other "
+                "pictures or other given points."
+            )
         return given
     last = [np.subtract(size, 1) for size in sizes]  # the centre of a corner's pixel
     return tuple(np.clip(np.reshape(points, (-1, 2)), 0, end) for points, end in zip(lists, last))
@@ -338,7 +345,7 @@ def animate_chain(ax, reach, forward, angles, offsets, goals, *, click=False):
         drawn = np.asarray(ax.figure.canvas.buffer_rgba())
         ground = Image.fromarray(drawn[len(drawn) - y1 : len(drawn) - y0, x0:x1].copy())
         frame = (*ax.get_xlim(), *ax.get_ylim()[::-1])
-        (goals,) = _points("goals", [ground], [frame], [goals], 0.05)
+        (goals,) = _points("goals", [ground], [frame], [goals], 0.05, [])
     return _animate_chain(ax, reach, forward, angles, offsets, goals)
 
 
@@ -348,17 +355,25 @@ def weight_sliders(*args, **options):
     return []
 
 
-def _chosen(kind, frames):
-    """Return the points that the reader has moved on pictures of this size, else None."""
+def _key(lists, frames, pictures):
+    """Return a number that other given points, frames or pictures do not have."""
+    told = json.dumps([np.asarray(numbers, dtype=float).tolist() for numbers in (*lists, *frames)])
+    return zlib.crc32(b"".join([told.encode(), *(picture.tobytes() for picture in pictures)]))
+
+
+def _chosen(kind, key):
+    """Return the points that the reader has moved, if it was those with this key, else None."""
     chosen = answers.get(kind)
-    return chosen["lists"] if chosen and chosen["frames"] == frames else None
+    return chosen["lists"] if chosen and chosen.get("key") == key else None
 
 
-def _points(kind, images, frames, lists, step):
-    """Return the points that the reader has chosen for these pictures, else the given ones."""
+def _points(kind, images, frames, lists, step, belongs):
+    """Return the points that the reader has chosen for what `belongs` to them, else the given."""
     first = [np.asarray(points, dtype=float).tolist() for points in lists]
     frames = [[float(number) for number in frame] for frame in frames]
-    lists = _chosen(kind, frames) or first
+    key = _key(first, frames, belongs)
+    lists = _chosen(kind, key) or first
     pictures = [_png(image.convert("RGB")) for image in images]
-    post("points", *pictures, name=kind, frames=frames, lists=lists, first=first, step=step)
+    told = {"frames": frames, "lists": lists, "first": first, "key": key, "step": step}
+    post("points", *pictures, name=kind, **told)
     return [np.array(points, dtype=float).reshape(-1, 2) for points in lists]

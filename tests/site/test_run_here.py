@@ -365,7 +365,7 @@ def test_points_are_moved_with_keys_and_mouse_and_every_run_uses_them(opened):
     here.run(with_points(here.text()))
     before = first_point(here)
     ground = here.page.locator(".run-ground").first
-    ground.get_by_role("button").first.focus()
+    ground.get_by_role("slider").first.focus()
     here.type("ArrowRight", "ArrowRight", "Shift+ArrowDown")
     ground.click(position={"x": 30, "y": 40})
     here.click("Run with these key points")
@@ -374,7 +374,8 @@ def test_points_are_moved_with_keys_and_mouse_and_every_run_uses_them(opened):
     assert [b - a for a, b in zip(before, keyed)] == pytest.approx([2, 10, 1])
 
     size = ground.bounding_box()["width"]
-    x, y = centre(ground.get_by_role("button").first)
+    x, y = centre(ground.get_by_role("slider").first)
+    here.page.mouse.click(x, y)
     here.page.mouse.move(x, y)
     here.page.mouse.down()
     here.page.mouse.move(x + size / 8, y - size / 16, steps=3)
@@ -382,7 +383,8 @@ def test_points_are_moved_with_keys_and_mouse_and_every_run_uses_them(opened):
     here.run()
     dragged = first_point(here)
     # A picture of 160 pixels; a pointer stands on whole pixels of the page.
-    assert [b - a for a, b in zip(keyed, dragged)] == pytest.approx([20, -10, 0], abs=1)
+    assert [b - a for a, b in zip(keyed, dragged)][:2] == pytest.approx([20, -10], abs=1)
+    assert dragged[2] == keyed[2]
     here.run(here.text().replace("click = True", "click = False"))
     assert first_point(here) == dragged
     assert "click = True shows them again" in here.output.inner_text()
@@ -404,7 +406,7 @@ def test_points_are_moved_by_a_finger(chromium, address):
     before = first_point(here)
     ground = here.page.locator(".run-ground").first
     here.page.get_by_role("button", name="Enlarge the pictures").tap()
-    dot = ground.get_by_role("button").first
+    dot = ground.get_by_role("slider").first
     dot.scroll_into_view_if_needed()
     size = ground.bounding_box()["width"]
     assert size > 600
@@ -577,7 +579,7 @@ def test_no_shortcut_of_the_site_takes_a_key_from_what_has_the_focus(opened):
     answer.wait_for()
     here.type("text:1/2")
     assert answer.input_value() == "1/2"
-    dot = here.page.locator(".run-ground").get_by_role("button").first
+    dot = here.page.locator(".run-ground").get_by_role("slider").first
     slider = here.page.get_by_label("Picture of the film")
     run = here.page.get_by_role("button", name="Run", exact=True)
     output = here.page.locator(".run-crash, .run-output pre").first
