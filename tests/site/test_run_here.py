@@ -445,7 +445,7 @@ def test_own_pictures_get_one_size_and_the_lines_that_use_them(opened, tmp_path)
         here.page.get_by_text("Add pictures").click()
     chooser.value.set_files([tmp_path / "phone.jpg", tmp_path / "wide.png"])
     here.said("Both were made 320 × 320 pixels.")
-    here.said("Of phone.jpg and wide.png the middle was taken")
+    here.said("The edges of phone.jpg and wide.png were cut off")
     lines = here.page.locator(".run-own pre").inner_text()
     assert lines.splitlines()[0] == (
         'image_a = canim.data.read_image("phone.jpg", size=(320, 320))'
