@@ -57,12 +57,22 @@ test("Start over puts the program aside, and it can be taken back, also after a 
 });
 
 test("what is written after Start over is not lost when the first program is taken back", () => {
-  keep(program, { ...MINE, text: "second", before: { text: "first", answers: {} } });
+  keep(program, { ...MINE, text: "second", before: [{ text: "first", answers: {} }] });
   page = show(html);
   back().click();
   assert.equal(text(), "first");
   back().click();
   assert.equal(text(), "second");
+});
+
+test("a program stays to be taken back though Start over is pressed once more", () => {
+  keep(program, { ...MINE, text: "a letter", before: [{ text: "mine", answers: {} }] });
+  page = show(html);
+  named("Start over").click();
+  back().click();
+  assert.equal(text(), "a letter");
+  back().click();
+  assert.equal(text(), "mine");
 });
 
 test("Start over does nothing to a starter that nobody has changed", () => {
@@ -103,10 +113,10 @@ test("what another tab has written over without having seen it can be taken back
   page = show(html);
   toldOf({ ...MINE, text: "theirs" }, { ...MINE, text: "older" });
   assert.equal(text(), "theirs");
-  assert.equal(recall(program).before.text, "mine = 1"); // also after a reload
+  assert.equal(recall(program).before[0].text, "mine = 1"); // also after a reload
   back().click();
   assert.equal(text(), "mine = 1");
-  assert.equal(recall(program).before.text, "theirs");
+  assert.equal(recall(program).before[0].text, "theirs");
 });
 
 test("a tab that was not told of what another one wrote puts that aside", () => {
@@ -114,7 +124,7 @@ test("a tab that was not told of what another one wrote puts that aside", () => 
   page = show(html);
   keep(program, { ...MINE, text: "theirs" });
   named("Start over").click(); // a change of this tab
-  assert.equal(recall(program).before.text, "theirs");
+  assert.equal(recall(program).before[0].text, "theirs");
 });
 
 test("points that were moved are kept, and every run is told of them", async () => {
@@ -124,6 +134,8 @@ test("points that were moved are kept, and every run is told of them", async () 
   named("Run").click();
   await new Promise((resolve) => setTimeout(resolve));
   const worker = FakeWorker.made.at(-1);
+  worker.tell("ready");
+  await new Promise((resolve) => setTimeout(resolve));
   worker.tell("begin");
   const frame = [-0.5, 9.5, -0.5, 9.5];
   const lists = [[[2, 3]], [[4, 5]]];
@@ -172,6 +184,8 @@ test("a key that is typed does not reach a shortcut of the site; Ctrl+Enter runs
   press("/");
   press("Enter", { ctrlKey: true });
   assert.equal(reached, 0);
+  await new Promise((resolve) => setTimeout(resolve));
+  FakeWorker.made.at(-1).tell("ready");
   await new Promise((resolve) => setTimeout(resolve));
   assert.equal(FakeWorker.made.at(-1).orders.at(-1).kind, "run");
 });

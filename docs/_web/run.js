@@ -28,6 +28,18 @@ function hindrance() {
   return "";
 }
 
+const NO_EDITOR = "The editor has not come. Look at your connection to the network, then click on the program again.";
+const MOST_BEFORE = 5; // programs that can be taken back
+
+/** @param {Program} a @param {Program} b */
+const same = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+/** Change what is said only where it differs: a screen reader speaks all that is put there.
+ *  @param {HTMLElement} place @param {string} words */
+function write(place, words) {
+  if (place.textContent !== words) place.textContent = words;
+}
+
 /** Hand a file to the reader. @param {string} name @param {BlobPart[]} content */
 function save(name, content) {
   const href = URL.createObjectURL(new Blob(content));
@@ -43,12 +55,14 @@ class Run extends HTMLElement {
   #again = false;
   #prepared = false;
   #isPreparing = false;
+  #press = 0; // of Run or Stop: what an earlier one has ordered is not sent any more
   /** @type {{[kind: string]: any}} what the reader has answered to the program */
   #answers = {};
   /** @type {string[]} what input() gets in this run */
   #texts = [];
-  /** @type {Program | null} what was here before something else took its place */
-  #before = null;
+  /** @type {Program[]} what was here before something else took its place, the newest first */
+  #before = [];
+  #begunWith = ""; // the starter that the reader's program was begun with
   /** @type {string | null} the text that this tab has kept, or was told of by another one */
   #seen = null;
   #pictures = new Pictures();
@@ -56,6 +70,7 @@ class Run extends HTMLElement {
   #films = new Map();
   /** @type {ReturnType<typeof import("./editor.js").edit> | undefined} */
   #editor;
+  #isEditorComing = false;
   #misses = 0; // of the editor's script
   /** @type {Promise<void> | undefined} */
   #offline;
@@ -68,9 +83,11 @@ class Run extends HTMLElement {
   // page, this stands in its place.
   #whole = make("pre", { className: "run-whole" });
   #notice = make("div", { className: "run-notice", hidden: true });
+  #go = button("Run", () => this.#run(), "run-main");
   #stop = button("Stop", () => this.#end("Stopped."));
-  #back = button("Take my program back", () => this.#before && this.#replace(this.#before));
+  #back = button("Take my program back", () => this.#takeBack());
   #unkept = make("p", { className: "run-unkept", role: "status" });
+  #editorStatus = make("p", { className: "run-unkept run-editor", role: "status" });
   #status = make("p", { className: "run-status", role: "status" });
   #clock = new Clock();
   #asked = make("div");
@@ -86,13 +103,12 @@ class Run extends HTMLElement {
     }
     const code = this.querySelector("template")?.content.firstElementChild;
     this.#name = this.dataset.file ?? "";
-    this.#starter = code?.textContent ?? "";
+    this.#starter = this.#begunWith = code?.textContent ?? "";
     this.#set(this.#starter);
     this.#code.append(code ?? "");
     this.#stop.disabled = true;
     this.#say(`Python runs here, in your browser. The first Run loads ${megabytes(this.#starter)} MB.`);
-    const bar = make("div", { className: "run-bar", role: "group", "aria-label": "The program" }, this.#stop);
-    bar.prepend(button("Run", () => this.#run(), "run-main"));
+    const bar = make("div", { className: "run-bar", role: "group", "aria-label": "The program" }, this.#go, this.#stop);
     bar.append(
       button("Start over", () => this.#startOver()),
       this.#back,
@@ -105,7 +121,7 @@ class Run extends HTMLElement {
       bar.append(this.#pictures.element);
       this.append(this.#pictures.told);
     }
-    this.append(this.#unkept, this.#status, this.#clock.element, this.#asked, this.#output);
+    this.append(this.#unkept, this.#editorStatus, this.#status, this.#clock.element, this.#asked, this.#output);
     this.#back.hidden = true;
     this.#lookAt();
     this.#code.onpointerenter = () => this.#edit();
@@ -134,12 +150,15 @@ class Run extends HTMLElement {
     const kept = recall(this.#name);
     if (!kept) return;
     this.#answers = kept.answers;
-    this.#before = kept.before ?? null;
+    this.#before = kept.before ?? [];
     this.#seen = kept.text;
     this.#write(kept.text);
     this.#offerBack();
     if (kept.starter === this.#starter || kept.text === this.#starter) return;
+    this.#begunWith = kept.starter; // until the reader has chosen
     const choose = (/** @type {() => void} */ choice) => {
+      this.#begunWith = this.#starter;
+      this.#leave(this.#notice, this.#go);
       this.#notice.hidden = true;
       choice();
     };
@@ -155,11 +174,11 @@ class Run extends HTMLElement {
     // Another tab may have kept what this one was not told of, as one that slept is not.
     const other = recall(this.#name);
     if (other && other.text !== this.#seen && other.text !== this.#text)
-      this.#before = { text: other.text, answers: other.answers };
+      this.#putAside({ text: other.text, answers: other.answers });
     this.#seen = this.#text;
-    const kept = keep(this.#name, { ...this.#program(), starter: this.#starter, before: this.#before });
+    const kept = keep(this.#name, { ...this.#program(), starter: this.#begunWith, before: this.#before });
     const words = kept ? "" : "This browser does not keep your program: download it before you leave.";
-    if (this.#unkept.textContent !== words) this.#unkept.textContent = words;
+    write(this.#unkept, words);
     this.#offerBack();
   }
 
@@ -170,14 +189,34 @@ class Run extends HTMLElement {
     const isLost = this.#seen !== null && this.#seen !== replaced?.text && kept.text !== mine.text;
     this.#seen = kept.text;
     this.#answers = kept.answers;
-    this.#before = isLost ? mine : (kept.before ?? null);
+    this.#before = kept.before ?? [];
+    const isAside = this.#before.some((program) => same(program, mine));
+    if (isLost) this.#putAside(mine);
     this.#write(kept.text);
-    if (isLost && kept.before?.text !== mine.text) this.#keep();
+    if (isLost && !isAside) this.#keep();
     this.#offerBack();
   }
 
+  /** Keep a program that something else takes the place of. @param {Program} program */
+  #putAside(program) {
+    this.#before = [program, ...this.#others(program)].slice(0, MOST_BEFORE);
+  }
+
+  /** Return what was put aside, but for this program. @param {Program} program */
+  #others(program) {
+    return this.#before.filter((other) => !same(other, program));
+  }
+
   #offerBack() {
-    this.#back.hidden = !this.#before || JSON.stringify(this.#before) === JSON.stringify(this.#program());
+    const isHidden = this.#others(this.#program()).length === 0;
+    if (isHidden) this.#leave(this.#back, this.#go);
+    this.#back.hidden = isHidden;
+  }
+
+  /** Hand on the focus of a part that goes away, or a reader with a keyboard is at the page's top.
+   *  @param {HTMLElement} part @param {HTMLElement} next */
+  #leave(part, next) {
+    if (part.contains(document.activeElement)) next.focus({ preventScroll: true });
   }
 
   /** @returns {Program} */
@@ -203,9 +242,8 @@ class Run extends HTMLElement {
     else this.#code.replaceChildren(make("pre", { tabIndex: 0 }, text));
   }
 
-  /** Put another program in place of the reader's, which can be taken back. @param {Program} program */
+  /** Put another program in place of the reader's. @param {Program} program */
   #replace({ text, answers }) {
-    this.#before = this.#isStarter() ? null : this.#program();
     this.#answers = answers;
     this.#write(text);
     this.#keep();
@@ -213,7 +251,17 @@ class Run extends HTMLElement {
   }
 
   #startOver() {
-    if (!this.#isStarter()) this.#replace({ text: this.#starter, answers: {} });
+    if (this.#isStarter()) return;
+    this.#putAside(this.#program());
+    this.#replace({ text: this.#starter, answers: {} });
+  }
+
+  /** Take the newest program back; what is there now can be taken back last. */
+  #takeBack() {
+    const now = this.#program();
+    const [newest, ...older] = this.#others(now);
+    this.#before = this.#isStarter() ? older : [...older, now];
+    this.#replace(newest);
   }
 
   /** Scroll the program to a line. */
@@ -224,14 +272,21 @@ class Run extends HTMLElement {
 
   /** Put the editor in place of the text. */
   async #edit() {
+    if (this.#editor || this.#isEditorComing) return;
+    this.#isEditorComing = true;
     const address = new URL(editorAddress);
     // Browsers do not ask again for a script that did not come.
     if (this.#misses) address.searchParams.set("again", String(this.#misses));
+    const told = { 1000: "The editor is loading …", 20000: NO_EDITOR };
+    const timers = Object.entries(told).map(([wait, words]) =>
+      setTimeout(() => write(this.#editorStatus, words), Number(wait)),
+    );
     const editor = await import(address.href).catch(() => null);
-    if (this.#editor) return;
+    timers.forEach(clearTimeout);
+    this.#isEditorComing = false;
+    write(this.#editorStatus, editor ? "" : NO_EDITOR);
     if (!editor) {
       this.#misses++;
-      this.#say("The editor has not come. Look at your connection to the network, then click on the program again.");
       return;
     }
     const hadFocus = this.#code.contains(document.activeElement);
@@ -248,39 +303,57 @@ class Run extends HTMLElement {
 
   /** @param {"load" | "run"} kind */
   async #order(kind) {
-    await (this.#offline ??= keepOffline(site, editorAddress));
-    if (this.#isDoubtful) await askAnew(this.#address);
-    this.#isDoubtful = false;
-    if (kind === "run" && this.#state === "idle") return; // Stop was quicker
-    const order = { kind, code: this.#text, name: this.#name, files: this.#pictures.files };
-    const answers = JSON.stringify({ ...this.#answers, texts: this.#texts });
-    this.#python.send({ ...order, packages: packages(this.#text), answers });
+    const press = this.#press;
+    try {
+      await (this.#offline ??= keepOffline(site, editorAddress));
+      await this.#pictures.ready;
+      if (this.#isDoubtful) await askAnew(this.#address);
+      this.#isDoubtful = false;
+      if (kind === "run" && press !== this.#press) return;
+      const order = { kind, code: this.#text, name: this.#name, files: this.#pictures.files };
+      const answers = JSON.stringify({ ...this.#answers, texts: this.#texts });
+      this.#python.send({ ...order, packages: packages(this.#text), answers });
+    } catch (error) {
+      this.#fail({ kind: "failed", reason: "start", file: "", text: String(error), blobs: [] });
+    }
   }
 
   #prepare() {
     if (this.#prepared) return;
     this.#prepared = this.#isPreparing = true;
-    this.#say(`${progress(this.#text, 0)} You can edit while it does.`);
+    this.#progress(0);
     this.#order("load");
   }
 
   #run(texts = /** @type {string[]} */ ([])) {
     if (this.#state !== "idle") {
-      this.#again = this.#state === "running";
+      this.#again = this.#state === "running"; // while Python loads, the newest text is waited for anyway
       return;
     }
     this.#texts = texts;
-    this.#prepare();
-    this.#state = this.#python.isReady ? "running" : "loading";
-    this.#say(this.#python.isReady ? "Running …" : progress(this.#text, 0));
+    this.#press++;
+    this.#prepared = true;
     this.#stop.disabled = false;
+    this.#state = "loading";
+    if (this.#python.isReady) this.#start();
+    else {
+      this.#progress(0);
+      if (!this.#python.hasBegun) this.#order("load");
+    }
     this.#status.scrollIntoView({ block: "nearest" });
+  }
+
+  /** Run the program as it is now: the reader may have changed it while Python was loading. */
+  #start() {
+    this.#state = "running";
+    this.#say("Running …");
     this.#order("run");
   }
 
   /** End what runs, and load a new Python, from what the browser has kept. @param {string} words */
   #end(words) {
     this.#again = false;
+    this.#press++;
     this.#python.end();
     this.#ended(words);
     this.#order("load");
@@ -290,6 +363,7 @@ class Run extends HTMLElement {
   #ended(words) {
     this.#state = "idle";
     this.#isPreparing = false;
+    this.#leave(this.#stop, this.#go);
     this.#stop.disabled = true;
     this.#clock.stop();
     for (const film of this.#films.values()) film.isComplete = true;
@@ -301,15 +375,14 @@ class Run extends HTMLElement {
 
   /** @param {string} words */
   #say(words) {
-    this.#status.textContent = words;
+    write(this.#status, words);
   }
 
   /** @param {Message} message */
   #hear(message) {
     const { kind, text, blobs } = message;
     if (kind === "progress") this.#progress(message.done);
-    // Not after Stop: then Python is loaded anew, and nobody waits.
-    else if (kind === "ready" && this.#isPreparing && this.#state === "idle") this.#say("Python is ready.");
+    else if (kind === "ready") this.#ready();
     else if (kind === "begin") this.#begin();
     else if (kind === "text") this.#print(text);
     else if (kind === "advance") this.#clock.note(text);
@@ -324,28 +397,36 @@ class Run extends HTMLElement {
     else if (kind === "failed") this.#fail(message);
   }
 
+  // After Stop, Python is loaded anew, from what the browser has: nobody waits, and nothing is said.
+
+  #ready() {
+    if (this.#state === "loading") this.#start();
+    else if (this.#isPreparing && this.#state === "idle") this.#say("Python is ready.");
+  }
+
   /** @param {number} done bytes */
   #progress(done) {
-    // Not after Stop: then Python is loaded anew, from what the browser has, and nobody waits.
-    if (this.#isPreparing || this.#state !== "idle") this.#say(progress(this.#text, done));
+    if (this.#state !== "idle") this.#say(progress(this.#text, done));
+    else if (this.#isPreparing) this.#say(`${progress(this.#text, done)} You can edit while it does.`);
   }
 
   /** @param {Message} failure */
   async #fail(failure) {
+    const press = this.#press;
     this.#python.end();
     this.#isDoubtful = ["script", "policy"].includes(failure.reason);
     const { words, isRenewed } = await explain(/** @type {any} */ (failure), this.#address);
-    if (this.#python.hasBegun) return; // the reader was quicker
-    this.#ended(words);
+    if (press !== this.#press) return; // the reader was quicker
+    const isKept = this.#unkept.textContent === "";
+    this.#ended(isRenewed && !isKept ? `${words} Press Download .py first, or your program is lost.` : words);
     if (isRenewed) this.#asked.replaceChildren(button("Load the page again", () => location.reload()));
   }
 
   #begin() {
-    this.#state = "running";
-    this.#say("Running …");
     this.#clock.start();
     this.#films.clear();
     this.#output.setAttribute("aria-busy", "true");
+    this.#leave(this.#asked, this.#stop);
     this.#printed.remove();
     for (const old of [this.#printed, this.#shown, this.#asked]) old.replaceChildren();
     this.#editor?.mark(0);

@@ -17,11 +17,14 @@ const press = (/** @type {string} */ name) =>
 const status = () => page.querySelector(".run-status")?.textContent;
 const turn = () => new Promise((resolve) => setTimeout(resolve));
 
-/** Press Run; return the worker. */
+/** Press Run; return the worker, which has got ready. */
 async function run() {
   press("Run");
   await turn();
-  return /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
+  const worker = /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
+  if (worker.orders.at(-1)?.kind === "load") worker.tell("ready");
+  await turn();
+  return worker;
 }
 
 /** @param {() => any} condition */
@@ -82,7 +85,7 @@ test("it is told how far Python has come", async () => {
   const worker = /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
   assert.equal(status(), "Python is loading: 0 of 12 MB. You can edit while it does.");
   worker.tell("progress", { done: 6_000_000, waits: "silent" });
-  assert.equal(status(), "Python is loading: 6 of 12 MB.");
+  assert.equal(status(), "Python is loading: 6 of 12 MB. You can edit while it does.");
   worker.tell("ready");
   assert.equal(status(), "Python is ready.");
   press("Run");
@@ -111,7 +114,9 @@ test("a script of the worker that was wrong is asked for anew before the next ru
     asked.push(`${String(address).split("/").pop()} ${options.cache}`);
     return new Response("", { headers: { "Content-Type": "text/javascript" } });
   });
-  const worker = await run();
+  press("Run");
+  await turn();
+  const worker = /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
   worker.onerror({});
   await until(() => /does not start/.test(status() ?? ""));
   asked.length = 0;
@@ -197,9 +202,65 @@ test("an editor that does not come is told, and asked for again", async () => {
   });
   const turnTo = () => page.querySelector(".run-code")?.dispatchEvent(new PointerEvent("pointerenter"));
   turnTo();
-  await until(() => /editor has not come/.test(status() ?? ""));
+  const told = () => page.querySelector(".run-editor")?.textContent ?? "";
+  await until(() => /editor has not come/.test(told()));
   turnTo();
   await until(() => page.querySelector(".cm-content"));
+  assert.equal(told(), "");
   assert.deepEqual(asked, ["editor.js", "editor.js?again=1"]);
   hooks.deregister();
+});
+
+test("what is written while Python loads is what runs", async () => {
+  page.querySelector(".run-code")?.dispatchEvent(new PointerEvent("pointerenter"));
+  await until(() => page.querySelector(".cm-content"));
+  press("Run");
+  await turn();
+  const worker = /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
+  /** @type {any} */ (page.querySelector(".cm-content")).cmTile.view.dispatch({ changes: { from: 0, insert: "#" } });
+  press("Run");
+  worker.tell("ready");
+  await turn();
+  const runs = worker.orders.filter(({ kind }) => kind === "run");
+  assert.deepEqual(
+    runs.map(({ code }) => code),
+    ["#a = 1\nb = 2  # TODO\n"],
+  );
+});
+
+test("Run, Stop and Run in haste run the program once, and it can be stopped", async () => {
+  const first = await run();
+  press("Stop");
+  press("Run");
+  press("Stop");
+  press("Run");
+  await turn();
+  const worker = /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
+  assert.equal(first.isEnded, true);
+  for (const { kind } of [...worker.orders]) if (kind === "load") worker.tell("ready");
+  await turn();
+  assert.equal(worker.orders.filter(({ kind }) => kind === "run").length, 1);
+  assert.equal([...page.querySelectorAll("button")].find((b) => b.textContent === "Stop")?.disabled, false);
+});
+
+test("what stops the page from giving its order is told", async (context) => {
+  await run();
+  press("Stop");
+  await turn();
+  FakeWorker.made.at(-1)?.tell("ready");
+  context.mock.method(FakeWorker.prototype, "postMessage", () => {
+    throw new DOMException("no copy", "DataCloneError");
+  });
+  press("Run");
+  await until(() => /does not start/.test(status() ?? ""));
+});
+
+test("who uses the keyboard is not sent to the top of the page by what goes away", async () => {
+  const worker = await run();
+  const named = (/** @type {string} */ name) =>
+    [...page.querySelectorAll("button")].find((b) => b.textContent === name);
+  named("Stop")?.focus();
+  worker.tell("begin");
+  worker.tell("end", { text: "Your program ended." });
+  assert.equal(document.activeElement?.textContent, "Run");
 });
