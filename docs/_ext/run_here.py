@@ -21,6 +21,7 @@ from sphinx.errors import ExtensionError
 from sphinx.util import logging
 from sphinx.util.console import red
 from sphinx.util.docutils import SphinxDirective
+from take_away import LEFT_OUT
 
 logger = logging.getLogger(__name__)
 
@@ -44,8 +45,7 @@ def _prepare(app, config):
     bundled = _bundle(["worker.js"], worker, "esm", known)
     bundled += _bundle(["editor.js"], scripts, "esm", known)
     del known["files"]  # the page need not know them
-    known["version"] = _digest(files, worker, scripts / "editor.js")
-    known["folder"] = f"_run/{known['version']}/"
+    known["folder"] = f"_run/{_digest(files, worker, scripts / 'editor.js')}/"
     bundled += _bundle(["run.js"], scripts, "iife", known)
     bundled = sorted({*bundled} - {"pyodide"})
     (scripts / TEXTS).write_text(_licence_texts(bundled), encoding="utf-8")
@@ -119,17 +119,19 @@ def _hand_out(app, exception):
         for files in app.run_parts:
             shutil.copytree(files, part, dirs_exist_ok=True)
         part.rename(target)
-    _bundle(["service_worker.js"], app.outdir, "iife", {"hashes": _hashes(app.outdir)})
+    _bundle(["service_worker.js"], app.outdir, "iife", _contents(app.outdir))
 
 
-def _hashes(site):
-    """Return the hashes of what has a version in its address, and is kept by browsers."""
-    paths = [path for part in ("_run", "_static") for path in sorted((site / part).rglob("*"))]
-    return {
-        path.relative_to(site).as_posix(): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in paths
-        if path.is_file()
-    }
+def _contents(site):
+    """Return the hashes of what has a version in its address, and the paths of all else."""
+    hashes, others = {}, []
+    for path in sorted(path for path in site.rglob("*") if path.is_file()):
+        name = path.relative_to(site)
+        if name.parts[0] in ("_run", "_static"):
+            hashes[name.as_posix()] = hashlib.sha256(path.read_bytes()).hexdigest()
+        elif name.parts[0] not in LEFT_OUT:
+            others.append(name.as_posix())
+    return {"hashes": hashes, "others": others}
 
 
 class Licences(SphinxDirective):

@@ -2,6 +2,7 @@
 // they must be. Pyodide asks for them with fetch, waits without end, and reads whatever comes.
 
 import { sha256 } from "@noble/hashes/sha2.js";
+import { hex } from "./hex.js";
 
 /** Why Python cannot be had: the reason, for loading.js, and the file it is about. */
 export class Undelivered extends Error {
@@ -17,7 +18,7 @@ export class Undelivered extends Error {
 async function digest(bytes) {
   // Browsers have it only where the address is secure; ours takes four times as long.
   const hash = crypto.subtle ? new Uint8Array(await crypto.subtle.digest("SHA-256", bytes)) : sha256(bytes);
-  return [...hash].map((byte) => byte.toString(16).padStart(2, "0")).join("");
+  return hex(hash);
 }
 
 export class Delivery {

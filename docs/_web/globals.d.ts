@@ -1,5 +1,4 @@
 declare const RUN: {
-  version: string;
   folder: string;
   first: string[];
   needs: { [name: string]: string };
@@ -7,6 +6,7 @@ declare const RUN: {
   env: { [name: string]: string };
   files: { [name: string]: [bytes: number, transferred: number, sha256: string] }; // for worker.js
   hashes: { [path: string]: string }; // for service_worker.js
+  others: string[]; // paths of what has no hash
 };
 declare module "*.py" {
   const source: string;

@@ -1,5 +1,7 @@
 """What was loaded once works without the network."""
 
+import re
+
 from canim.checks import TASKS
 
 FIRST = f"{TASKS['1.1'].page}.html"
@@ -32,3 +34,13 @@ def test_a_page_and_its_program_work_again_without_a_server(chromium, serve):
         page.locator(".cm-content").wait_for()
         run()
     context.close()
+
+
+def test_the_service_worker_knows_the_pages_and_pictures_of_the_site(site):
+    """A page without the mark would never be kept, one without its path soon be removed."""
+    known = (site / "service_worker.js").read_text(encoding="utf-8")
+    pages = [path for path in site.rglob("*.html") if path.name != "404.html"]
+    for path in (*pages, *(site / "_images").iterdir()):
+        assert f'"{path.relative_to(site).as_posix()}"' in known
+    for page in pages:
+        assert re.search(r"<html\b[^>]*\sdata-content_root=", page.read_text(encoding="utf-8"))

@@ -64,7 +64,6 @@ Object.assign(globalThis, {
   Worker: FakeWorker,
   confirm: () => true,
   RUN: {
-    version: "12ab",
     folder: "_run/12ab/",
     first: ["numpy", "canim"],
     needs: { scipy: "\\bscipy\\b" },
