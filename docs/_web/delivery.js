@@ -60,6 +60,11 @@ export class Delivery {
     return this.#checks.get(name);
   }
 
+  /** The names of all that was asked for. */
+  get names() {
+    return [...this.#checks.keys()];
+  }
+
   /** As the browser's own. @type {typeof fetch} */
   fetch = async (input, options) => {
     const address = String(input instanceof Request ? input.url : input);

@@ -1,5 +1,7 @@
 // The page's side of the worker: one Python for the page, ended and made anew by Stop.
 
+import { keepLoaded } from "./offline.js";
+
 /**
  * What the worker is to do.
  * @typedef {{kind: "load" | "run", packages: string[], code: string, name: string,
@@ -9,7 +11,10 @@
  */
 
 const BEAT = 500; // milliseconds; so often the worker is asked how far it is
-const PATIENCE = 19_000; // of silence; with a beat, and the time to say it, less than 20 s
+/** Milliseconds of silence that are borne, by what is waited for. With a beat, and the time to
+ *  say it, those of the network are less than 20 s.
+ *  @type {{[waits: string]: number}} */
+const PATIENCE = { silent: 19_000, start: 60_000 };
 
 export class Python {
   /** @type {Worker | undefined} */
@@ -18,6 +23,7 @@ export class Python {
   #beat;
   #unanswered = 0; // orders
   #isAsked = false;
+  #isLate = false; // its answer: it was busy
   #isHeard = false;
   #silence = 0;
   #done = 0;
@@ -40,7 +46,12 @@ export class Python {
   /** @param {Order} order */
   send(order) {
     if (!this.#worker) {
-      const worker = new Worker(this.address, { type: "module" });
+      let worker;
+      try {
+        worker = new Worker(this.address, { type: "module" });
+      } catch (error) {
+        return this.#fail("script", String(error)); // some browsers throw where a policy forbids it
+      }
       // What an ended worker still had to say is not told.
       worker.onmessage = ({ data }) => worker === this.#worker && this.#hear(data);
       worker.onerror = (event) =>
@@ -55,29 +66,32 @@ export class Python {
 
   #ask() {
     if (!this.#isHeard) this.#wait("silent");
-    if (this.#isAsked) return; // it is busy, which is no silence
+    this.#isLate = this.#isAsked;
+    if (this.#isLate) return; // it is busy, which is no silence
     this.#isAsked = true;
     this.#worker?.postMessage({ kind: "ask" });
   }
 
-  /** @param {string} reason that is given if it takes too long */
+  /** @param {string} reason for which it waits, given if it takes too long */
   #wait(reason) {
     this.#silence += BEAT;
-    if (this.#silence >= PATIENCE) this.#fail(reason);
+    if (this.#silence >= PATIENCE[reason]) this.#fail(reason);
   }
 
   /** @param {string} reason @param {string} [text] */
   #fail(reason, text = "") {
-    this.tell({ kind: "failed", reason, file: "", text, blobs: [] });
+    this.#pass({ kind: "failed", reason, file: "", text, blobs: [] });
   }
 
   /** @param {Message} message */
   #hear(message) {
     const { kind, done, waits } = message;
     this.#isHeard = true;
+    if (kind === "loaded") return void keepLoaded(message.addresses);
     if (kind === "progress") {
       this.#isAsked = false;
-      if (done !== this.#done || !waits) this.#silence = 0;
+      const hasWorked = waits === "start" && this.#isLate;
+      if (done !== this.#done || !waits || hasWorked) this.#silence = 0;
       else this.#wait(waits);
       this.#done = done;
       if (!waits) return;
@@ -85,6 +99,13 @@ export class Python {
     if (kind === "ready" || kind === "begin") this.isReady = true;
     if ((kind === "ready" || kind === "end") && --this.#unanswered === 0) this.#rest();
     if (kind === "failed" && message.file) this.#doubtful.push(message.file);
+    this.#pass(message);
+  }
+
+  /** @param {Message} message */
+  #pass(message) {
+    // What the reader is told is not the cause, which a maintainer wants to know.
+    if (message.kind === "failed") console.warn(`Run here: ${message.reason} ${message.file}`, message.text);
     this.tell(message);
   }
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { beforeEach, test } from "node:test";
-import { FakeWorker } from "./testing/page.mjs";
+import { FakeWorker, settled } from "./testing/page.mjs";
 
 const { Python } = await import("./python.js");
 const ORDER = { kind: "load", packages: [], code: "", name: "a.py", answers: "{}", files: [] };
@@ -80,16 +80,46 @@ test("a worker that is busy is not silent", (context) => {
   );
 });
 
-for (const waits of ["silent", "start"]) {
-  test(`nothing for 20 seconds is told: ${waits}`, (context) => {
+for (const [waits, seconds] of /** @type {const} */ ([
+  ["silent", 20],
+  ["start", 61],
+])) {
+  test(`nothing for ${seconds} seconds is told: ${waits}`, (context) => {
     const worker = begin(context);
     const answer = () => worker.tell("progress", { done: 5, waits });
-    wait(context, 18, answer);
+    wait(context, seconds - 2, answer);
     assert.equal(told.at(-1).kind, "progress");
     wait(context, 2, answer);
     assert.equal(told.find(({ kind }) => kind === "failed").reason, waits);
   });
 }
+
+test("a worker that is busy now and then is not given up while it starts", (context) => {
+  const worker = begin(context);
+  for (let spell = 0; spell < 20; spell++) {
+    wait(context, 20, () => worker.tell("progress", { done: 5, waits: "start" }));
+    wait(context, 3); // busy
+    worker.tell("progress", { done: 5, waits: "start" });
+  }
+  assert.ok(told.every(({ kind }) => kind === "progress"));
+});
+
+test("what was loaded is handed on, to be kept", async (context) => {
+  /** @type {any[]} */
+  const kept = [];
+  const active = { postMessage: (/** @type {any} */ addresses) => kept.push(addresses) };
+  const serviceWorker = { ready: Promise.resolve({ active }) };
+  Object.defineProperty(navigator, "serviceWorker", { value: serviceWorker, configurable: true });
+  begin(context).tell("loaded", { addresses: ["https://example.org/a.whl"] });
+  await settled();
+  assert.deepEqual(kept, [["https://example.org/a.whl"]]);
+});
+
+test("the cause of a failure is on the console, for a maintainer", (context) => {
+  const warn = context.mock.method(console, "warn", () => {});
+  begin(context).tell("failed", { reason: "start", file: "", text: "Error: the cause" });
+  assert.match(String(warn.mock.calls[0].arguments), /start.*the cause/);
+});
 
 test("a script of the worker that does not come is told", (context) => {
   begin(context);
@@ -97,6 +127,14 @@ test("a script of the worker that does not come is told", (context) => {
   assert.deepEqual(told, []);
   wait(context, 1);
   assert.equal(told[0].reason, "silent");
+});
+
+test("a browser that makes no worker is told", (context) => {
+  context.mock.method(globalThis, "Worker", () => {
+    throw new DOMException("no", "SecurityError");
+  });
+  python.send(ORDER);
+  assert.equal(told[0].reason, "script");
 });
 
 test("a worker that fails is told: without its script, or at its work", (context) => {

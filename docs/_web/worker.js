@@ -22,6 +22,7 @@ export class Interpreter {
   /** @type {ReturnType<typeof this.load> | undefined} */
   #loaded;
   #isReady = false;
+  #told = 0; // files
   #orders = Promise.resolve();
 
   /** @param {string[]} doubtful files that the browser may hold wrong */
@@ -101,7 +102,17 @@ export class Interpreter {
   obey(order) {
     this.#orders = this.#orders
       .then(() => Promise.race([this.#obey(order), this.delivery.failed]))
+      .then(() => this.#tellLoaded())
       .catch((error) => post("failed", { reason: this.#reason(error), file: error.file ?? "", text: String(error) }));
+  }
+
+  /** Tell the addresses of Python's files, for those that did not come through the service worker. */
+  #tellLoaded() {
+    const { names } = this.delivery;
+    if (names.length === this.#told) return;
+    this.#told = names.length;
+    const { href } = self.location;
+    post("loaded", { addresses: [href, ...names.map((name) => new URL(name, href).href)] });
   }
 
   /** Tell what has come, and what there is still to wait for. */

@@ -31,6 +31,8 @@ const entry = (/** @type {string} */ text) => [
 let network;
 /** @type {any[]} */
 let told;
+/** @type {any[]} what there is to keep for later */
+const loaded = [];
 /** @type {any} what goes wrong in Pyodide */
 let wrong;
 /** @type {string[]} */
@@ -72,7 +74,7 @@ const pyodide = {
 Object.assign(globalThis, {
   self: globalThis,
   location: { href: "https://example.org/0/worker.js" },
-  postMessage: (/** @type {any} */ message) => told.push(message),
+  postMessage: (/** @type {any} */ message) => (message.kind === "loaded" ? loaded : told).push(message),
   RUN: {
     env: {},
     files: { "pyodide.asm.js": entry("js"), "a.wasm": entry("wasm"), "numpy.whl": entry("n"), "scipy.whl": entry("s") },
@@ -150,6 +152,19 @@ test("what a program imports unseen is loaded, and it runs again", async () => {
   assert.equal((await obey({ code: "imports" })).kind, "end");
   assert.deepEqual(calls, ["run false", "run true"]);
   assert.equal((await obey({ code: "not Python" })).kind, "end");
+});
+
+test("the addresses of all that was loaded are told, each time that there are more", async () => {
+  await obey();
+  loaded.length = 0;
+  await order({ code: "import numpy" });
+  await order({ code: "import scipy" });
+  await order();
+  const names = ["worker.js", "pyodide.asm.js", "a.wasm", "numpy.whl", "scipy.whl"];
+  assert.deepEqual(
+    loaded.map(({ addresses }) => addresses),
+    [names.map((name) => new URL(name, location.href).href)],
+  );
 });
 
 test("a package that is missing or wrong is told, and no program runs without it", async () => {
