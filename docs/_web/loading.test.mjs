@@ -3,7 +3,7 @@ import { beforeEach, test } from "node:test";
 import "./testing/page.mjs";
 
 const { explain, megabytes, packages, progress } = await import("./loading.js");
-const { script } = await import("./site.js");
+const { script, site } = await import("./site.js");
 script.src += "?v=1";
 const WORKER = "https://example.org/course/_run/12ab/worker.js";
 /** @type {{[address: string]: Response | undefined}} */
@@ -63,11 +63,35 @@ test("a worker without a script has a reason too", async () => {
   const answers = [
     [undefined, /connection was lost/],
     [new Response("", { status: 404 }), /worker\.js is missing/],
-    [new Response("Log in", { headers: { "Content-Type": "text/html" } }), /worker\.js is not what it must be/],
+    [new Response("Log in", { headers: { "Content-Type": "text/html" } }), /worker\.js is not the right file/],
     [new Response("no", { headers: { "Content-Type": "text/javascript" } }), /does not start/],
   ];
   for (const [answer, words] of answers) {
     network[WORKER] = answer;
     assert.match(await told("script", ""), words);
   }
+});
+
+test("an old browser that cannot set a time is told the reason too", async (context) => {
+  context.mock.method(AbortSignal, "timeout");
+  Object.assign(AbortSignal, { timeout: undefined });
+  network[WORKER] = new Response("", { status: 404 });
+  assert.match(await told("script", ""), /worker\.js is missing/);
+});
+
+const forbid = (/** @type {object} */ violation) =>
+  document.dispatchEvent(Object.assign(new Event("securitypolicyviolation"), violation));
+
+test("what a policy only reports, or forbids to others, is no reason", async () => {
+  forbid({ blockedURI: `${site.href}a`, disposition: "report" });
+  forbid({ blockedURI: "https://other.org/a", disposition: "enforce" });
+  assert.match(await told("lost"), /connection was lost/);
+});
+
+test("a policy that forbids the worker, or what it asks for, is the reason", async () => {
+  network[WORKER] = new Response("no", { headers: { "Content-Type": "text/javascript" } });
+  // As browsers do, after the request has failed.
+  setTimeout(() => forbid({ blockedURI: `${site.href}_run/12ab/worker.js`, disposition: "enforce" }));
+  assert.match(await told("script", ""), /does not let your browser run Python/);
+  assert.match(await told("lost"), /does not let your browser run Python/);
 });
