@@ -264,3 +264,15 @@ test("who uses the keyboard is not sent to the top of the page by what goes away
   worker.tell("end", { text: "Your program ended." });
   assert.equal(document.activeElement?.textContent, "Run");
 });
+
+test("what Python has loaded is kept for a reader without the network", async () => {
+  /** @type {string[][]} */
+  const told = [];
+  const active = { postMessage: (/** @type {string[]} */ addresses) => told.push(addresses) };
+  Object.defineProperty(navigator, "serviceWorker", { value: { ready: { active } }, configurable: true });
+  const worker = await run();
+  worker.tell("loaded", { addresses: ["https://example.org/course/_run/12ab/worker.js"] });
+  await turn();
+  assert.deepEqual(told.at(-1), ["https://example.org/course/_run/12ab/worker.js"]);
+  Reflect.deleteProperty(navigator, "serviceWorker");
+});
