@@ -166,3 +166,21 @@ def test_a_function_in_which_the_program_is_ended_is_named(check, monkeypatch):
     report = check(RIGHT, broken="time")
     said = "hermite_basis did not end within 2 seconds. Is there a loop without an end?"
     assert messages(report)[0] == said
+
+
+@pytest.mark.parametrize("line", ["print(undefined)", "input()", "import not_there", "exit()"])
+def test_answers_below_the_line_that_stops_are_kept(check, line):
+    text = f"{line}\n" + RIGHT + "answers = {1: 'early'}\nanswers = {1: 'so', 2: ''}\n"
+    assert check(text).answers == {"1": "so", "2": ""}
+
+
+def test_answers_in_a_cell_below_one_without_an_end_are_kept(check, monkeypatch):
+    def be_ended(*args):
+        raise Ended
+
+    monkeypatch.setattr(student._Student, "_run_one", be_ended)
+    notebook = nbformat.v4.new_notebook()
+    codes = ["while True: pass\n" + RIGHT, "answers = {1: 'so'}\nanswers = {1: texts}"]
+    notebook.cells = [nbformat.v4.new_code_cell(code) for code in codes]
+    report = check(nbformat.writes(notebook), "mine.ipynb", broken="time")
+    assert report.answers == {"1": "so"}

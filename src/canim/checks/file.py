@@ -86,10 +86,13 @@ def check_file(
     own = guard or make()
     limits = limits or Limits()
     try:
-        reports = [
-            _run(own, path, _until(sources, trees, calls, task), is_notebook, task, limits)
-            for task in tasks
-        ]
+        reports = []
+        for one in tasks:
+            own_part = _until(sources, trees, calls, one)
+            report = _run(own, path, own_part, is_notebook, one, limits)
+            # A program that stops early has not come to the answers in its last lines.
+            answers = report.answers or _written_answers(own_part, trees)
+            reports.append(replace(report, answers=answers))
     finally:
         if guard is None:
             own.close()
@@ -310,6 +313,16 @@ def _until(
                 return [*sources[:cell], ("\n".join(before), name)]
             answered = answered or "answers" in names
     return sources
+
+
+def _written_answers(sources: list[tuple[str, str]], trees: list[ast.Module]) -> dict[str, str]:
+    """Return the answers as they stand in this part of the program, without running it."""
+    return reading.answers(
+        statement
+        for (code, _), tree in zip(sources, trees, strict=False)
+        for statement in tree.body
+        if statement.lineno <= code.count("\n") + 1
+    )
 
 
 def _given(statement: ast.stmt) -> Iterator[str]:

@@ -10,7 +10,7 @@ import re
 import tokenize
 import unicodedata
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -147,6 +147,18 @@ def calls(tree: ast.Module) -> Iterator[tuple[ast.Call, object]]:
                 ast.Name("check") | ast.Attribute(ast.Name(), "check"), [ast.Constant(task), *_]
             ):
                 yield node, task
+
+
+def answers(statements: Iterable[ast.stmt]) -> dict[str, str]:
+    """Return the last ``answers = {…}`` among these that can be read without running them."""
+    found: dict[str, str] = {}
+    for statement in statements:
+        match statement:
+            case ast.Assign([ast.Name("answers")], ast.Dict() as written):
+                with suppress(ValueError, TypeError, MemoryError, RecursionError):
+                    read = ast.literal_eval(written)
+                    found = {str(question): str(text) for question, text in read.items()}
+    return found
 
 
 def why_not(path: Path) -> str:
