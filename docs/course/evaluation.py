@@ -57,8 +57,11 @@ def table_of(path):
             cells = [cell.strip() for cell in row]
             if any(cells):
                 rows.append((reader.line_num, cells))
-    except csv.Error:
+    except csv.Error as error:
         line = rows[-1][0] + 1 if rows else 1
+        if "expected after" in str(error):
+            why = 'a quotation mark inside a cell in quotes must be doubled.'
+            raise Refused(f"{path}, line {line}: {why}") from None
         raise Refused(f"{path}, line {line}: there is no end to a cell in quotes.") from None
     if not rows:
         raise Refused(f"{path} is empty.")
@@ -128,6 +131,12 @@ def summary(scores):
     return lines
 
 
+def signed(number, places=0):
+    """Return the number with its sign, which 0 has not."""
+    text = f"{number:+.{places}f}"
+    return text if float(text) else text[1:]
+
+
 def compared(scores, question):
     """Say how the answers of the same students differ between the two courses."""
     difference = scores[f"{question}_here"] - scores[f"{question}_there"]
@@ -136,13 +145,13 @@ def compared(scores, question):
     if count == 0:
         return "no student gave both numbers, so nothing can be compared"
     if count == 1:
-        return f"{difference[0]:+.0f}, from one student: too few to tell more"
+        return f"{signed(difference[0])}, from one student: too few to tell more"
     if np.ptp(difference) == 0:
-        few = f"{difference[0]:+.0f} from each of {count} students"
+        few = f"{signed(difference[0])} from each of {count} students"
         return f"{few}: where all agree, nothing tells how far another class would differ"
     error = half_interval(difference)
     places = decimals(error)
-    told = f"{difference.mean():+.{places}f} ± {error:.{places}f}, from {count} students"
+    told = f"{signed(difference.mean(), places)} ± {error:.{places}f}, from {count} students"
     may_be = " (may be chance)" if abs(difference.mean()) < error else ""
     return told + may_be
 
