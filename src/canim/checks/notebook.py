@@ -30,9 +30,9 @@ _TOKEN = re.compile(
 )
 _ASSIGNED = re.compile(r"([^=#(!\n]*[^=#(!\n<>+*/%&|^@:-])=\s*([%!].*)", re.S)
 _MAGIC = re.compile(r"%+([\w!.]+)\s*(.*)", re.S)
-# Options of %timeit and %prun that may stand before the statement.
 # Nodes of a tree that have a place in the text.
 _PLACED = (ast.stmt, ast.expr, ast.excepthandler, ast.arg, ast.keyword, ast.alias, ast.pattern)
+# Options of %timeit and %prun that may stand before the statement.
 _OPTIONS = r"(?:-(?:-\S+|[fnrpsTDl]\s*\S+|[a-z]+)(?:\s+|$))*"
 # A line, and the next ones where it ends in a backslash.
 _COMMAND = r"(?:\\\n|[^\n])*"

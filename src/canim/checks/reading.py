@@ -14,7 +14,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
-SUFFIXES = (".py", ".ipynb")
 # What browsers, mail programs and Windows make of such names: task_1_1.py (1).txt.
 _PROGRAM = re.compile(r"\.(pyw?|ipynb) ?(?:\(\d+\))? ?(?:\.(?:txt|text|json))?[. ]*", re.IGNORECASE)
 # A text may be a program: task_1_1.txt, or "task 1.1", which has no suffix.
