@@ -537,3 +537,11 @@ def test_several_files_are_checked_one_after_another(folder, capsys):
 def test_options_for_one_are_not_taken_for_two(option, words, capsys):
     assert main(["check", write("a.py", DONE), write("b.py", DONE), option]) == 2
     assert words in capsys.readouterr().err
+
+
+def test_a_program_of_this_folder_takes_no_module_s_place(folder, monkeypatch):
+    monkeypatch.setattr(sys, "path", [str(folder), *sys.path])
+    monkeypatch.setattr(sys, "argv", ["canim", "tasks"])
+    with pytest.raises(SystemExit):
+        runpy.run_module("canim", run_name="__main__")
+    assert str(folder) not in sys.path

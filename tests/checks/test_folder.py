@@ -342,3 +342,22 @@ def test_the_page_for_teachers_shows_how_to_use_a_cluster(root, handed_in, tmp_p
     assert ran.returncode == 0, ran.stderr
     rows = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     assert rows == check_folder(handed_in, jobs=1)
+
+
+@pytest.mark.parametrize("before", [None, "1"])
+def test_files_of_the_class_take_no_module_s_place(tmp_path, monkeypatch, before):
+    (tmp_path / "task_1_1.py").write_text(WRONG)
+    (tmp_path / "task_1_1_again.py").write_text(WRONG)
+    taken = "import os\nopen(os.path.join(os.path.dirname(__file__), 'ran'), 'w').close()\n1 / 0\n"
+    for name in ("random.py", "json.py", "queue.py"):
+        (tmp_path / name).write_text(taken)
+    monkeypatch.delenv("PYTHONSAFEPATH", raising=False)
+    if before:
+        monkeypatch.setenv("PYTHONSAFEPATH", before)
+    get_reusable_executor().shutdown(wait=True)
+    monkeypatch.chdir(tmp_path)
+    rows = check_folder(tmp_path, limits=LIMITS, jobs=2)
+    get_reusable_executor().shutdown(wait=True)
+    assert {row["task"] for row in rows if row["file"].startswith("task")} == {"1.1"}
+    assert not (tmp_path / "ran").exists()
+    assert os.environ.get("PYTHONSAFEPATH") == before

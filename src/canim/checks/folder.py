@@ -158,10 +158,31 @@ def _checked(
         return
     import joblib
 
-    parallel = joblib.Parallel(n_jobs=jobs, return_as="generator_unordered")
-    yield from parallel(joblib.delayed(check_one)(*one, limits) for one in given)
+    before = os.environ.get(_SAFE_PATH)
+    # Python's workers would look into this folder first: a random.py of the class would run.
+    os.environ[_SAFE_PATH] = "1"
+    try:
+        parallel = joblib.Parallel(n_jobs=jobs, return_as="generator_unordered")
+        yield from parallel(joblib.delayed(_check_safely)(before, *one, limits) for one in given)
+    finally:
+        _restore_safe_path(before)
 
 
+def _check_safely(
+    before: str | None, number: int, path: str, name: str, task: str | None, limits: Limits
+) -> tuple[int, list[Row]]:
+    # What the program itself starts finds its modules as always.
+    _restore_safe_path(before)
+    return check_one(number, path, name, task, limits)
+
+
+def _restore_safe_path(before: str | None) -> None:
+    os.environ.pop(_SAFE_PATH, None)
+    if before is not None:
+        os.environ[_SAFE_PATH] = before
+
+
+_SAFE_PATH = "PYTHONSAFEPATH"
 _guard: Guard | None = None
 _guard_in_use = threading.Lock()
 
