@@ -61,7 +61,7 @@ def check(tmp_path, monkeypatch):
     changed = {
         sys: ("argv", "dont_write_bytecode", "path", "stdout", "stderr"),
         matplotlib: ("use",),
-        pyplot: ("switch_backend",),
+        pyplot: ("switch_backend", "show"),
         FigureCanvasBase: ("start_event_loop",),
         checks: ("check",),
         tempfile: ("tempdir",),
@@ -83,7 +83,8 @@ def check(tmp_path, monkeypatch):
         (report,) = check_file(path, task=task, limits=Limits(2), guard=Beside(broken))
         return report
 
-    return checked
+    yield checked
+    pyplot.close("all")
 
 
 def messages(report):
@@ -134,6 +135,35 @@ def test_nothing_waits_or_is_printed(check, capfd):
     text += "pyplot.switch_backend('TkAgg')\npyplot.figure()\npyplot.pause(1000)\npyplot.close()\n"
     assert check(text + "print(1)\nprint(2, file=sys.stderr)\n" + RIGHT).done
     assert capfd.readouterr() == ("", "")
+
+
+YOURS = "from matplotlib import pyplot as plt\nplt.ioff()\nplt.subplots(num='Yours')\n"
+
+
+@pytest.mark.parametrize(
+    "show", ["plt.show()", "plt.show(block=True)", "plt.ion()\nplt.show(block=True)"]
+)
+def test_a_window_that_was_shown_is_closed(check, show):
+    assert check(f"{YOURS}{show}\n{YOURS}{RIGHT}").stops == []
+
+
+@pytest.mark.parametrize("show", ["plt.show(block=False)", "plt.ion()\nplt.show()"])
+def test_a_window_that_nobody_waits_for_stays_open(check, show):
+    text = f"{YOURS}{show}\nassert plt.fignum_exists('Yours')\nplt.ioff()\nplt.show()\n"
+    assert check(text + RIGHT).stops == []
+
+
+def test_a_film_can_be_saved_after_it_was_shown(check):
+    text = f"{YOURS}from matplotlib.animation import FuncAnimation\n"
+    text += "film = FuncAnimation(plt.gcf(), lambda i: [], frames=2)\nplt.show()\n"
+    text += "film.save('film.gif', writer='pillow')\n"
+    assert check(text + RIGHT).stops == []
+
+
+def test_the_pictures_of_a_cell_are_closed_at_its_end(check):
+    notebook = nbformat.v4.new_notebook()
+    notebook.cells = [nbformat.v4.new_code_cell(code) for code in (YOURS, YOURS + RIGHT)]
+    assert check(nbformat.writes(notebook), "mine.ipynb").stops == []
 
 
 def test_temporary_files_have_a_folder_that_goes_with_the_program(check, tmp_path):

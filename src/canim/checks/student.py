@@ -130,6 +130,9 @@ class _Student:
             crash = crash_of(error, own.__contains__)
             stopped.append(replace(crash, cell=crash.cell or cell_of(name)))
             return False
+        finally:
+            if self._is_notebook:
+                _close_windows()  # as Jupyter does
         return True
 
     def _compiled(self, code: str, name: str) -> CodeType:
@@ -160,11 +163,23 @@ def _nothing(*args: Any, **options: Any) -> None:
     """Do nothing, whatever is asked."""
 
 
+def _shown(*, block: bool | None = None) -> None:
+    """Go on where somebody would have closed the windows: the next may have their names."""
+    if block or (block is None and not pyplot.isinteractive()):
+        _close_windows()
+
+
+def _close_windows() -> None:
+    with suppress(Exception):  # the program may have changed what draws
+        pyplot.close("all")
+
+
 def _let_nothing_wait() -> None:
     """Nobody is there to close a window, to press a key or to read what is printed."""
     pyplot.switch_backend("agg")
     vars(matplotlib)["use"] = _nothing
     vars(pyplot)["switch_backend"] = _nothing
+    vars(pyplot)["show"] = _shown
     FigureCanvasBase.start_event_loop = _nothing  # type: ignore[method-assign]
     sys.stdout = nowhere()
     # The file's own call would report twice, and end the program where a part crashes.
