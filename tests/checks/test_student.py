@@ -166,6 +166,29 @@ def test_the_pictures_of_a_cell_are_closed_at_its_end(check):
     assert check(nbformat.writes(notebook), "mine.ipynb").stops == []
 
 
+def of(*codes):
+    notebook = nbformat.v4.new_notebook()
+    notebook.cells = [nbformat.v4.new_code_cell(code) for code in codes]
+    return nbformat.writes(notebook)
+
+
+def test_a_notebook_finds_what_jupyter_keeps_of_its_cells(check):
+    report = check(of("assert (_, In[1][:6], Out) == ('', 'assert', {})", RIGHT), "mine.ipynb")
+    assert report.stops == []
+
+
+def test_a_program_that_is_not_there_to_run_is_told_by_the_name_in_the_cell(check):
+    (stop,) = check(of("%run", "%run nothere.py", RIGHT), "mine.ipynb").stops
+    assert stop.startswith("Code cell 2 stops")
+    assert "nothere.py" in stop
+    assert "nothere.py.py" not in stop
+
+
+def test_a_program_is_run_without_its_ending_too(check, tmp_path):
+    (tmp_path / "made.py").write_text("four = 4")
+    assert check(of("%run made\nassert four == 4", RIGHT), "mine.ipynb").stops == []
+
+
 def test_temporary_files_have_a_folder_that_goes_with_the_program(check, tmp_path):
     written = tmp_path / "written.txt"
     text = "import pathlib, tempfile\nnumber, name = tempfile.mkstemp()\n"

@@ -131,9 +131,11 @@ class Shell(_Unseen):
     def _run(self, words: list[str]) -> None:
         """Run a program or a notebook, and take over its names."""
         options = [word for word in words if word.startswith("-")]
-        name = next(word for word in words if word not in options)
+        name = next((word for word in words if word not in options), "")
+        if not name:
+            return
         path = Path(name)
-        if not path.is_file():
+        if not path.is_file() and path.suffix not in (".py", ".ipynb"):
             path = Path(f"{name}.py")
         sys.path.insert(0, str(path.parent.absolute()))
         if path.suffix == ".ipynb":
@@ -171,6 +173,8 @@ def open_shell(codes: list[tuple[str, str]], names: dict[str, Any], is_notebook:
     shell = Shell(names) if is_notebook or _EXPORTED.search(text) else None
     if shell:
         vars(builtins).update({"get_ipython": lambda: shell, "display": _Unseen()})
+    if is_notebook:
+        names.update({"_": "", "In": ["", *(code for code, _ in codes)], "Out": {}})
     if "IPython" not in text:
         return
     if not importlib.util.find_spec("IPython"):
