@@ -19,6 +19,8 @@ WESTERN = [
     "# 30° and 5 m²: µs, 2×3 → no".replace("→", "–"),
     "# don’t “do” ‘this’, pages 3–4, §5, 3€ and 2½",
     "größe_2 = 1",
+    "# („Länge“) und “so”.",
+    "# L'HAŸ",
 ]
 OTHERS = [
     ("cp1251", "# решение задачи"),
@@ -29,6 +31,9 @@ OTHERS = [
     ("cp1250", "# őrült űr"),
     ("cp1254", "# şöyle ığdır"),
     ("cp850", "# größe läuft"),
+    ("cp850", "# Länge der Körper"),
+    ("cp850", "# länge und körper"),
+    ("mac_roman", "# über uns"),
     ("cp437", "# voilà été"),
     ("mac_roman", "# größe läuft"),
     ("shift_jis", "# 日本語"),

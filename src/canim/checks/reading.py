@@ -71,7 +71,7 @@ _ALPHABETS = (
 _ALONE = set("àâáéèêóôíúåäöæøy")  # words of one letter, as in French "à"
 # Where these stand, no other encoding has a letter that would make sense there.
 _SIGNS = re.compile(
-    r"„[^„“”]*[“”]|“[^“”]*”|‘[^‘’]*’|«[^«»]*»"  # quotes in pairs
+    r"(?<!\w)(?:„[^„“”]*[“”]|“[^“”]*”|‘[^‘’]*’|«[^«»]*»)(?!\w)"  # quotes in pairs, around words
     r"|(?<=[A-Za-z])’(?=[A-Za-zéêàâèhô ])|(?<= )[–—](?= )|(?<=\d)–(?=\d)"
     r"|(?<=[\w)\] ])[°²³](?![a-z])|[±×·](?=[ \d])|µ(?=[ms]\b)|§(?= ?\d)|(?<=\d)[½€]"
 )
@@ -253,6 +253,8 @@ def _is_western(text: str) -> bool:
     foreign = {c.lower() for c in rest if not c.isascii()}
     if not foreign:
         return True
+    if re.search("Ÿ[a-z]", rest):
+        return False  # it is "ü" on an old Macintosh
     if not any(foreign <= set(alphabet) for alphabet in _ALPHABETS):
         return False
     words = [w.lower() for w in re.findall(r"[^\W\d_]+", rest) if not w.isascii()]
