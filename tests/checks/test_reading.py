@@ -198,3 +198,24 @@ def test_a_task_that_was_not_asked_for_is_told(tmp_path, capsys):
 def test_a_file_that_is_not_there_is_told():
     with pytest.raises(UnusableFile, match=r"absent\.txt is not there"):
         read(reading.Path("absent.txt"))
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        'import canim\ncanim.check(hint=True, task="1.1")',
+        'import canim as c\nc.check("1.1")',
+        'from canim import data, check as c\nc("1.1")',
+        'from canim import check\ncheck("Task 1-1")',
+    ],
+)
+def test_a_call_is_found_however_it_is_written(call, tmp_path):
+    (tmp_path / "mine.py").write_text(call)
+    assert [report.task.id for report in check_file(tmp_path / "mine.py")] == ["1.1"]
+
+
+def test_what_is_not_a_task_is_not_taken_for_one(tmp_path):
+    path = tmp_path / "mine.py"
+    path.write_text('def check(*texts, **more): pass\ncheck()\ncheck("step 11")\ncheck(text="1.1")')
+    with pytest.raises(reading.NoTask):
+        check_file(path)

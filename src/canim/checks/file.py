@@ -262,11 +262,16 @@ def _sources(path: Path, text: str, is_notebook: bool) -> list[tuple[str, str]]:
 def _calls(trees: list[ast.Module]) -> dict[str, tuple[int, int]]:
     """Return the tasks that the program checks, and the cell and line of each one's last call."""
     found = [
-        (cell, call.end_lineno or call.lineno, str(task))
-        for cell, tree in enumerate(trees)
-        for call, task in reading.calls(tree)
+        (cell, call.end_lineno or call.lineno, _number(str(task)))
+        for cell, call, task in reading.calls(*trees)
     ]
     return {task: (cell, line) for cell, line, task in sorted(found)}
+
+
+def _number(text: str) -> str:
+    """Return the number that a text such as "Task 1-1" means, or else the text."""
+    meant = re.fullmatch(r"\s*(?:task)?\W*\d+\D\d+\s*", text, re.IGNORECASE)
+    return (checks.number_in(text) if meant else "") or text
 
 
 def _tasks_of(path: Path, called: list[str], asked: str | None) -> tuple[list[Task], list[str]]:

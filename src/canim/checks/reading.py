@@ -138,14 +138,29 @@ def is_notebook(text: str) -> bool:
         return False
 
 
-def calls(tree: ast.Module) -> Iterator[tuple[ast.Call, object]]:
-    """Yield the calls of ``canim.check`` and what each has as its task."""
-    for node in ast.walk(tree):
+def calls(*trees: ast.Module) -> Iterator[tuple[int, ast.Call, object]]:
+    """Yield which tree has a call of ``canim.check``, the call, and what it has as its task."""
+    nodes = [(place, node) for place, tree in enumerate(trees) for node in ast.walk(tree)]
+    imported = [
+        alias.asname or alias.name
+        for _, node in nodes
+        if isinstance(node, ast.ImportFrom) and node.module == "canim"
+        for alias in node.names
+        if alias.name == "check"
+    ]
+    names = {"check", *imported}
+    for place, node in nodes:
         match node:
-            case ast.Call(
-                ast.Name("check") | ast.Attribute(ast.Name(), "check"), [ast.Constant(task), *_]
-            ):
-                yield node, task
+            case ast.Call(ast.Attribute(ast.Name(), "check")):
+                pass
+            case ast.Call(ast.Name(name)) if name in names:
+                pass
+            case _:
+                continue
+        named = [keyword.value for keyword in node.keywords if keyword.arg == "task"]
+        match [*node.args[:1], *named]:
+            case [ast.Constant(task), *_]:
+                yield place, node, task
 
 
 def answers(statements: Iterable[ast.stmt]) -> dict[str, str]:
