@@ -414,7 +414,14 @@ def test_a_virtual_environment_is_litter(tmp_path):
     (tmp_path / "__pycache__").mkdir()
     found = find(tmp_path)
     assert [one.name for one in found if not one.litter] == ["a.py", "venv/a.py"]
-    assert [one.name for one in found if one.litter] == ["__pycache__", "env", "env"]
+    assert [one.name for one in found if one.litter] == ["__pycache__", "lib", "pyvenv.cfg"]
+
+
+def test_a_program_in_a_virtual_environment_is_handed_in(tmp_path):
+    write(tmp_path, {"ann/pyvenv.cfg": "x", "ann/Lib/a.py": "x", "ann/task_1_1.py": RIGHT})
+    (tmp_path / "ann/lib64").symlink_to("Lib")
+    write(tmp_path, {"ben/pyvenv.cfg": "x"})
+    assert told(tmp_path) == {"ann/task_1_1.py": "", "ben": handins.ONLY_LITTER}
 
 
 def test_what_lies_beside_a_checked_program_came_along(tmp_path, quick):

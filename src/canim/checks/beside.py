@@ -18,6 +18,10 @@ MOST_BESIDE = 50_000_000  # in bytes
 MOST_FILES_BESIDE = 500
 _PROGRAMS = (".py", ".ipynb")
 _PASSED_OVER = ("node_modules", "site-packages")
+_ENVIRONMENT = (
+    *("bin", "Scripts", "lib", "lib64", "Lib", "include", "Include", "share"),
+    *("pyvenv.cfg", "CACHEDIR.TAG", ".lock"),
+)
 # A copy that fails for one of these fails for the disk, not for the file.
 _OF_THE_DISK = (errno.ENOSPC, errno.EDQUOT, errno.EROFS, errno.EIO, errno.EMFILE, errno.ENFILE)
 # Calls whose texts name programs that are run.
@@ -66,17 +70,23 @@ def _files(path: Path) -> tuple[list[Path], list[Path]]:
     programs: list[Path] = []
     others: list[Path] = []
     for folder, folders, names in os.walk(path.parent):
-        if "pyvenv.cfg" in names:  # an environment of Python
-            folders.clear()
-            continue
         folders[:] = sorted(
-            n for n in folders if not n.startswith((".", "__")) and n not in _PASSED_OVER
+            n
+            for n in folders
+            if not n.startswith((".", "__"))
+            and n not in _PASSED_OVER
+            and not is_of_environment(Path(folder, n))
         )
         for name in sorted(names):
             entry = Path(folder, name)
-            if entry != path:
+            if entry != path and not is_of_environment(entry):
                 (programs if entry.suffix.lower() in _PROGRAMS else others).append(entry)
     return programs, others
+
+
+def is_of_environment(path: Path) -> bool:
+    """Tell whether this is a part of an environment of Python, not what somebody put there."""
+    return path.name in _ENVIRONMENT and os.path.isfile(path.parent / "pyvenv.cfg")
 
 
 def _used(path: Path, codes: list[str], programs: list[Path]) -> list[Path]:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import IO
 from zipfile import BadZipFile, ZipFile, ZipInfo
 
-from canim.checks import reading
+from canim.checks import beside, reading
 
 # Of one zip and all zips in it, unpacked. What was handed in as one zip holds a whole class.
 MOST = 1_000_000_000  # in bytes
@@ -103,13 +103,15 @@ class _Search:
             for found in self._entry(place / entry, _join(name, entry), zips, room):
                 nothing = nothing and found.litter
                 yield found
-        if nothing:
+        # Whoever handed in nothing but an environment is named, unless it is called one.
+        if nothing and not ("pyvenv.cfg" in names and place.name in ("env", "venv")):
             yield Found(name, place, ONLY_LITTER if names else EMPTY)
 
     def _entry(self, path: Path, name: str, zips: int, room: Room | None) -> Iterator[Found]:
-        if path.is_symlink() and (reason := self._of_link(path)):
+        own = beside.is_of_environment(path)
+        if not own and path.is_symlink() and (reason := self._of_link(path)):
             yield Found(name, path, reason)
-        elif _LITTER.fullmatch(path.name) or os.path.isfile(path / "pyvenv.cfg"):
+        elif own or _LITTER.fullmatch(path.name):
             yield from [Found(path.name, path, litter=True)] * max(1, _count(path))
         elif path.name.startswith("."):
             what = f"folder of {numbered(_count(path))}" if os.path.isdir(path) else "file"
@@ -169,7 +171,7 @@ def numbered(files: int) -> str:
 
 def _count(path: Path) -> int:
     """Return the number of files in a folder, or 1 for a file."""
-    if not os.path.isdir(path):
+    if path.is_symlink() or not os.path.isdir(path):
         return 1
     return sum(len(names) for _, _, names in os.walk(path))
 
