@@ -409,6 +409,18 @@ def test_a_file_that_may_not_be_read_is_told(tmp_path, monkeypatch):
     assert told(tmp_path) == {"notes.txt": "is neither a .py nor an .ipynb file."}
 
 
+def test_all_zips_together_get_the_room_of_one_of_a_class(tmp_path, monkeypatch):
+    monkeypatch.setattr(handins, "MOST", 1500)
+    write(tmp_path, {f"{i}.zip": packed(("a.py", bytes(1400))) for i in range(5)})
+    told_all = told(tmp_path)
+    assert [told_all[f"{i}.zip/a.py"] for i in range(4)] == [""] * 4
+    assert told_all["4.zip/a.py"] == "is too large: unpack the zip yourself."
+    monkeypatch.setattr(handins, "MOST_FILES", 1)
+    monkeypatch.setattr(handins, "MOST", 10**6)
+    write(tmp_path, {"5.zip": packed(("a.py", "x = 1"))})
+    assert told(tmp_path)["5.zip"].startswith("holds more than 0 files")
+
+
 def test_a_virtual_environment_is_litter(tmp_path):
     write(tmp_path, {"env/pyvenv.cfg": "x", "env/lib/a.py": "x", "a.py": "x", "venv/a.py": "x"})
     (tmp_path / "__pycache__").mkdir()

@@ -77,7 +77,7 @@ def find(root: Path, unpacked: Path) -> Iterator[Found]:
     """Yield everything below a folder or in a zip, in order; zips are unpacked into `unpacked`."""
     search = _Search(root.resolve(), unpacked)
     if is_zip(root):
-        yield from search.zip(root, "", 0, Room(4 * MOST, 5 * MOST_FILES))
+        yield from search.zip(root, "", 0, search.left)
     else:
         yield from search.folder(root, "", 0, None)
 
@@ -87,6 +87,7 @@ class _Search:
         self._root = root
         self._unpacked = unpacked
         self._zips = 0
+        self.left = Room(4 * MOST, 5 * MOST_FILES)
 
     def folder(self, place: Path, name: str, zips: int, room: Room | None) -> Iterator[Found]:
         """Yield what is in a folder, which lies in so many zips, or that it is empty."""
@@ -123,7 +124,7 @@ class _Search:
             # Reading from a pipe or a device may never end.
             yield Found(name, path, "is a pipe or a device, or may not be read.")
         elif is_zip(path):
-            yield from self.zip(path, name, zips, room or Room(MOST, MOST_FILES))
+            yield from self.zip(path, name, zips, room) if room else self._outermost(path, name)
         else:
             yield _file(path, name)
 
@@ -136,6 +137,14 @@ class _Search:
         if not target.is_relative_to(self._root):
             return "is a link that leads out of the folder: hand in the file itself."
         return "is a link to a folder: what is there is checked there." if target.is_dir() else ""
+
+    def _outermost(self, path: Path, name: str) -> Iterator[Found]:
+        """Yield what is in a zip; all such zips together get the room of one of a class."""
+        files, size = min(MOST_FILES, self.left.files), min(MOST, self.left.bytes)
+        room = Room(size, files)
+        yield from self.zip(path, name, 0, room)
+        self.left.files -= files - room.files
+        self.left.bytes -= size - room.bytes
 
     def zip(self, path: Path, name: str, zips: int, room: Room) -> Iterator[Found]:
         """Yield what is in a zip, which itself lies in so many zips."""
