@@ -493,6 +493,16 @@ def test_in_a_folder_of_many_students_a_file_is_somebodys_by_its_name(tmp_path, 
     assert nothing == (f"Nothing was checked of: {eva}report.docx, face.png, lab/eva, more/eva")
 
 
+def test_a_document_in_place_of_a_program_does_not_come_along(tmp_path, quick):
+    documents = ["Ben_13_task_0_0.docx", "Cem_14_task_0_0.PDF"]
+    write(tmp_path, {"Ann_12_task_0_0.py": RIGHT, "face.png": b"x", "sheet.pdf": b"x"})
+    write(tmp_path, dict.fromkeys(documents, b"x"))
+    rows = folder.check_folder(tmp_path, jobs=1)
+    along = [row["file"] for row in rows if row["result"] == "came along"]
+    assert along == ["face.png", "sheet.pdf"]
+    assert folder.summary(rows)[-2] == f"Nothing was checked of: {', '.join(documents)}"
+
+
 def test_a_zip_that_cannot_be_read_is_refused(tmp_path, capsys):
     write(tmp_path, {"handins.zip": b"Rar!"})
     assert main(["check", str(tmp_path / "handins.zip")]) == 2

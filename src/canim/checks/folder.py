@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from canim.checks import beside, handins
+from canim.checks import beside, handins, reading
 from canim.checks.file import check_file
 from canim.checks.guard import Fault, Guard, Limits, make
 from canim.checks.handins import Found
@@ -33,6 +33,7 @@ ONE_BY_ONE = (
 OURS = "could not be checked, and canim is to blame, not the file"
 NOT_CHECKED, CAME_ALONG, PASSED_OVER = "not checked", "came along", "passed over"
 _NO_TASK = "no task"  # until it is known whether another program imports it
+_DOCUMENTS = (".docx", ".doc", ".odt", ".rtf", ".pages", ".pdf")
 # Letters that a spreadsheet would take for the beginning of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
@@ -130,8 +131,10 @@ def _is_owned(one: Found, folder: str, programs: dict[Found, str]) -> bool:
     Where several are of one task, it is the folder of many students. There a file is
     somebody's by the beginning of its name, as in those that Moodle makes.
     """
-    if len(set(programs.values())) == len(programs):
-        return True
+    # Such a document is what somebody handed in instead of a program.
+    instead = one.path.suffix.lower() in _DOCUMENTS and reading.task_in(one.path)
+    if instead or len(set(programs.values())) == len(programs):
+        return not instead
     owners = {tuple(p.name.removeprefix(f"{folder}/").split("_")[:2]) for p in programs}
     return tuple(one.name.removeprefix(f"{folder}/").split("_")[:2]) in owners
 
