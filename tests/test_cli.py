@@ -545,3 +545,17 @@ def test_a_program_of_this_folder_takes_no_module_s_place(folder, monkeypatch):
     with pytest.raises(SystemExit):
         runpy.run_module("canim", run_name="__main__")
     assert str(folder) not in sys.path
+
+
+def test_a_name_that_is_empty_is_refused(capsys):
+    assert main(["check", ""]) == 2
+    assert capsys.readouterr().err == "The name of the file is empty.\n"
+
+
+def test_a_command_that_is_stopped_says_so(monkeypatch, capsys):
+    def stop():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "_tasks", stop)
+    assert main(["tasks"]) == 130
+    assert capsys.readouterr().err == "\nThe command was stopped with Ctrl+C.\n"

@@ -87,6 +87,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     try:
         return _carry_out(asked)
+    except KeyboardInterrupt:
+        print("\nThe command was stopped with Ctrl+C.", file=sys.stderr)
+        return 130
     except Fault as fault:
         return _refuse(str(fault))
     except Exception:
@@ -132,6 +135,8 @@ def _certain(text: str) -> str:
 
 def _paths(text: str) -> list[Path]:
     """Return the files that an argument names: itself, those of a pattern, or that of a task."""
+    if not text:
+        raise ValueError("The name of the file is empty.")
     path = Path(text)
     if path.exists() or path.is_symlink():
         return [path]
