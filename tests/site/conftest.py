@@ -1,5 +1,6 @@
 """A server for the built site, and a browser that reads it: pytest tests/site --site DIR."""
 
+import json
 import os
 import shutil
 import sys
@@ -19,6 +20,16 @@ AXE_FILE = ROOT / "docs/node_modules/axe-core/axe.min.js"
 CHECK = """rules => axe.run(document, {resultTypes: ["violations"],
   ...(rules.length && {runOnly: rules})}).then(result =>
   result.violations.flatMap(v => v.nodes.map(n => `${v.id}: ${n.target.join(" ")}`)))"""
+KEPT = """async (names) => {
+  const addresses = performance.getEntriesByType("resource").map((entry) => entry.name);
+  const isOurs = (name) => name.startsWith(location.origin) && !/service_worker/.test(name);
+  const all = [location.href, ...addresses.filter(isOurs), ...names];
+  const wanted = all.map((name) => name.split("?")[0]);
+  const kept = [];
+  for (const name of await caches.keys())
+    for (const { url } of await (await caches.open(name)).keys()) kept.push(url.split("?")[0]);
+  return wanted.every((address) => kept.includes(address));
+}"""
 MOUNT = "/some/folder"  # of the server: a site at its root would hide wrong addresses
 
 
@@ -118,14 +129,34 @@ def address(serve):
 
 
 @pytest.fixture(scope="session")
-def chromium():
+def is_kept(site):
+    """Return an expression of JavaScript: whether a page can do without its server, at an address.
+
+    It has been loaded, and so has all of Python that the first task needs.
+    """
+    others = ("run.json", "scipy", "openblas", "canim-face")
+    files = [f for f in (site / "_run").glob("*/*") if not f.name.startswith(others)]
+
+    def expression(address):
+        names = [f"{address}/{file.relative_to(site).as_posix()}" for file in files]
+        return f"({KEPT})({json.dumps(names)})"
+
+    return expression
+
+
+@pytest.fixture(scope="session")
+def chromium_path():
+    """Return the path of the system's browser; without one, playwright looks for its own."""
+    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
+    return next(filter(None, map(shutil.which, names)), None)
+
+
+@pytest.fixture(scope="session")
+def chromium(chromium_path):
     from playwright.sync_api import sync_playwright
 
-    names = ("chromium", "chromium-browser", "google-chrome", "chrome")
-    found = next(filter(None, map(shutil.which, names)), None)
     with sync_playwright() as playwright:
-        # Without a browser of the system, playwright looks for its own.
-        browser = playwright.chromium.launch(executable_path=found, args=["--no-sandbox"])
+        browser = playwright.chromium.launch(executable_path=chromium_path, args=["--no-sandbox"])
         yield browser
         browser.close()
 

@@ -195,7 +195,7 @@ def test_what_was_typed_is_there_after_a_reload(reader):
     assert reader.browser.evaluate(LINES) == ["mine = 1", "kept = 2"]
 
 
-def test_a_page_and_its_program_work_without_a_server(browser, serve):
+def test_a_page_and_its_program_work_without_a_server(browser, serve, is_kept):
     shown = "[...document.images].filter((i) => i.loading !== 'lazy').map((i) => i.naturalWidth)"
     looks = f"[document.title, [...document.styleSheets].map((sheet) => sheet.href), {shown}]"
     with serve(recorded=True) as (address, end):
@@ -203,6 +203,7 @@ def test_a_page_and_its_program_work_without_a_server(browser, serve):
         reader.open(page("1.1"))
         before = browser.evaluate(looks)
         assert "not written yet" in reader.run()
+        browser.evaluate(f"wait(() => {is_kept(address)}, 'all that is needed is kept')")
         end()
         browser.reload()
         assert browser.evaluate(looks) == before

@@ -13,7 +13,7 @@ LOOKS = """() => [
 ENDED = "() => /ended/.test(document.querySelector('.run-status').textContent)"
 
 
-def test_a_page_and_its_program_work_again_without_a_server(chromium, serve):
+def test_a_page_and_its_program_work_again_without_a_server(chromium, serve, is_kept):
     context = chromium.new_context()
     page = context.new_page()
     page.set_default_timeout(60_000)
@@ -27,6 +27,7 @@ def test_a_page_and_its_program_work_again_without_a_server(chromium, serve):
         page.goto(f"{address}/{FIRST}")
         looks = page.evaluate(LOOKS)
         run()
+        page.wait_for_function(f"() => {is_kept(address)}")
         end()
         page.reload()
         assert page.evaluate(LOOKS) == looks

@@ -51,6 +51,14 @@ class Page:
             else:
                 self.page.keyboard.press(key)
 
+    def walk_to(self, element, key):
+        """Press Tab, or Shift+Tab, until an element has the focus."""
+        for _ in range(99):
+            if element.evaluate("element => element === document.activeElement"):
+                return
+            self.type(key)
+        raise AssertionError(f"{key} does not come to {element}")
+
     def walk_in(self):
         """Press Tab until the editor has the focus."""
         while not self.page.evaluate("document.activeElement.closest('.run-code') !== null"):
@@ -176,7 +184,7 @@ def test_a_long_run_shows_how_far_it_is_until_it_is_stopped(used):
     )
     used.click("Run")
     clock = used.page.get_by_role("timer")
-    clock.filter(has_text=re.compile(r"^[3-9] s\. \d+ of 1000$")).wait_for()
+    clock.filter(has_text=re.compile(r"^\d+ s\. \d+ of 1000$")).wait_for()
     used.click("Stop")
     assert used.status.inner_text() == "Stopped."
     assert not clock.is_visible()
@@ -252,7 +260,9 @@ def test_a_second_run_comes_after_the_first(used):
 def test_a_program_that_asks_gets_an_answer(used):
     used.write("name = input('Who are you? ')\nprint('Hello', name)")
     used.click("Run")
-    used.page.get_by_label("Who are you?").fill("Ada")
+    answer = used.page.get_by_label("Who are you?")
+    answer.click()
+    answer.press_sequentially("Ada")
     used.click("Answer")
     used.said("Hello Ada")
     used.click("Run")
@@ -365,7 +375,7 @@ def test_points_are_moved_with_keys_and_mouse_and_every_run_uses_them(opened):
     here.run(with_points(here.text()))
     before = first_point(here)
     ground = here.page.locator(".run-ground").first
-    ground.get_by_role("slider").first.focus()
+    here.walk_to(ground.get_by_role("slider").first, "Tab")
     here.type("ArrowRight", "ArrowRight", "Shift+ArrowDown")
     ground.click(position={"x": 30, "y": 40})
     here.click("Run with these key points")
@@ -583,8 +593,8 @@ def test_no_shortcut_of_the_site_takes_a_key_from_what_has_the_focus(opened):
     slider = here.page.get_by_label("Picture of the film")
     run = here.page.get_by_role("button", name="Run", exact=True)
     output = here.page.locator(".run-crash, .run-output pre").first
-    for element in (dot, slider, run, output):
-        element.focus()
+    for key, element in (("Shift+Tab", dot), ("Shift+Tab", run), ("Tab", output), ("Tab", slider)):
+        here.walk_to(element, key)
         before = here.page.evaluate(FOCUS)
         here.type("/", "Shift+/", "s")
         assert here.page.evaluate(FOCUS) == before
