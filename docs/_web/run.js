@@ -4,7 +4,7 @@ import { Clock } from "./clock.js";
 import { button, make } from "./elements.js";
 import { Film } from "./film.js";
 import { askAnew, explain, megabytes, packages, progress } from "./loading.js";
-import { keepLoaded, keepOffline } from "./offline.js";
+import { keepOffline } from "./offline.js";
 import { Pictures } from "./pictures.js";
 import { Points } from "./points.js";
 import { markDone, noteDone } from "./progress.js";
@@ -383,7 +383,6 @@ class Run extends HTMLElement {
     const { kind, text, blobs } = message;
     if (kind === "progress") this.#progress(message.done);
     else if (kind === "ready") this.#ready();
-    else if (kind === "loaded") keepLoaded(message.addresses);
     else if (kind === "begin") this.#begin();
     else if (kind === "text") this.#print(text);
     else if (kind === "advance") this.#clock.note(text);

@@ -60,7 +60,7 @@ def table_of(path):
     except csv.Error as error:
         line = rows[-1][0] + 1 if rows else 1
         if "expected after" in str(error):
-            why = 'a quotation mark inside a cell in quotes must be doubled.'
+            why = "a quotation mark inside a cell in quotes must be doubled."
             raise Refused(f"{path}, line {line}: {why}") from None
         raise Refused(f"{path}, line {line}: there is no end to a cell in quotes.") from None
     if not rows:
