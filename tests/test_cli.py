@@ -559,3 +559,16 @@ def test_a_command_that_is_stopped_says_so(monkeypatch, capsys):
     monkeypatch.setattr(cli, "_tasks", stop)
     assert main(["tasks"]) == 130
     assert capsys.readouterr().err == "\nThe command was stopped with Ctrl+C.\n"
+
+
+def test_who_has_read_enough_is_told_of_no_failure(monkeypatch, tmp_path, capsys):
+    def print_more(asked):
+        raise BrokenPipeError
+
+    monkeypatch.setattr(cli, "_carry_out", print_more)
+    with (tmp_path / "read").open("w", encoding="utf-8") as read:
+        monkeypatch.setattr(sys, "stdout", read)
+        assert cli.main(["tasks"]) == 1
+        read.write("this comes late")
+    assert (tmp_path / "read").read_text(encoding="utf-8") == ""
+    assert capsys.readouterr().err == ""

@@ -6,6 +6,7 @@ import argparse
 import difflib
 import glob
 import math
+import os
 import re
 import sys
 import traceback
@@ -22,7 +23,7 @@ _COMMANDS = ("tasks", "start", "check")
 _ENDS = """\
 It ends with 0 if every part of every file is done, with 1 if not, and with 2 if the command
 itself cannot be carried out: a file that is not there or is no program, an unknown task or
-option, a table or picture that cannot be written."""
+option, a table or picture that cannot be written. Ctrl+C ends it with 130."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -86,7 +87,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return 0
     try:
-        return _carry_out(asked)
+        code = _carry_out(asked)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        # Who reads what is printed, as `head` does, has enough. At its end Python would write more.
+        with open(os.devnull, "w") as nobody:
+            os.dup2(nobody.fileno(), sys.stdout.fileno())
+        return 1
     except KeyboardInterrupt:
         print("\nThe command was stopped with Ctrl+C.", file=sys.stderr)
         return 130
