@@ -168,10 +168,12 @@ def answers(statements: Iterable[ast.stmt]) -> dict[str, str]:
     found: dict[str, str] = {}
     for statement in statements:
         match statement:
-            case ast.Assign([ast.Name("answers")], ast.Dict() as written):
+            case ast.Assign([ast.Name("answers")], written):
+                found = {}
                 with suppress(ValueError, TypeError, MemoryError, RecursionError):
                     read = ast.literal_eval(written)
-                    found = {str(question): str(text) for question, text in read.items()}
+                    if isinstance(read, dict):
+                        found = {str(question): str(text) for question, text in read.items()}
     return found
 
 
