@@ -169,11 +169,10 @@ def answers(statements: Iterable[ast.stmt]) -> dict[str, str]:
     for statement in statements:
         match statement:
             case ast.Assign([ast.Name("answers")], written):
-                found = {}
                 with suppress(ValueError, TypeError, MemoryError, RecursionError):
                     read = ast.literal_eval(written)
-                    if isinstance(read, dict):
-                        found = {str(question): str(text) for question, text in read.items()}
+                    pairs = read.items() if isinstance(read, dict) else ()
+                    found = {str(question): str(text) for question, text in pairs}
     return found
 
 
