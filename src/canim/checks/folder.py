@@ -279,7 +279,8 @@ def summary(rows: list[Row]) -> list[str]:
     places = {place: None for name in passed for place in (*_above(name)[::-1], name)}
     nothing = [place for place in places if place and place not in checked]
     if outermost := [place for place in nothing if _above(place)[0] not in nothing]:
-        lines.append(f"Nothing was checked of: {', '.join(outermost)}")
+        # Names have commas in them: each has a line of its own.
+        lines += ["Nothing was checked of:", *(f"    {place}" for place in outermost)]
     return [*lines, f"All parts are done in {sum(passed.values())} of {len(passed)} files."]
 
 
