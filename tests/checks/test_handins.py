@@ -498,6 +498,19 @@ def test_in_a_folder_of_many_students_a_file_is_somebodys_by_its_name(tmp_path, 
     assert nothing_of(rows) == [f"{eva}report.docx", "face.png", "lab/eva", "more/eva"]
 
 
+def test_what_moodle_keeps_of_one_student_in_several_places_is_of_one(tmp_path, quick):
+    ada, hal, eva = (f"{name}_assignsubmission_" for name in ("Ada L_1", "Hal_2", "Eva_3"))
+    texts = [f"{who}onlinetext_/onlinetext.html" for who in (ada, eva)]
+    write(tmp_path, {f"{ada}file_/{NAME}": RIGHT, f"{ada}file_/more.rar": b"x"})
+    write(tmp_path, {f"{hal}file_{NAME}": RIGHT, f"{hal}file_mymath.py": "x = 1"})
+    write(tmp_path, dict.fromkeys(texts, b"x"))
+    rows = folder.check_folder(tmp_path, jobs=1)
+    assert nothing_of(rows) == [f"{ada}file_/more.rar", f"{eva}onlinetext_"]
+    lines = "\n".join(folder.summary(rows))
+    assert f"{texts[0]}: is a web page" in lines
+    assert f"{hal}file_mymath.py: is not a task" in lines
+
+
 def test_a_document_in_place_of_a_program_does_not_come_along(tmp_path, quick):
     documents = ["Ben_13_task_0_0.docx", "Cem_14_task_0_0.PDF"]
     write(tmp_path, {"Ann_12_task_0_0.py": RIGHT, "face.png": b"x", "sheet.pdf": b"x"})

@@ -278,10 +278,18 @@ def summary(rows: list[Row]) -> list[str]:
     checked = {place for name, task in tasks if task for place in (name, *_above(name))}
     places = {place: None for name in passed for place in (*_above(name)[::-1], name)}
     nothing = [place for place in places if place and place not in checked]
-    if outermost := [place for place in nothing if _above(place)[0] not in nothing]:
+    outermost = [place for place in nothing if _above(place)[0] not in nothing]
+    students = {_student(place) for place in checked} - {""}
+    if outermost := [place for place in outermost if _student(place) not in students]:
         # Names have commas in them: each has a line of its own.
         lines += ["Nothing was checked of:", *(f"    {place}" for place in outermost)]
     return [*lines, f"All parts are done in {sum(passed.values())} of {len(passed)} files."]
+
+
+def _student(place: str) -> str:
+    """Return whose file or folder this is where Moodle has named it, or ""."""
+    whose, mark, rest = place.rpartition("_assignsubmission_")
+    return whose if mark and "/" not in rest else ""
 
 
 def _shown(name: str) -> str:
