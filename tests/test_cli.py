@@ -2,6 +2,7 @@
 
 import io
 import json
+import os
 import runpy
 import subprocess
 import sys
@@ -307,6 +308,46 @@ def test_a_file_that_the_system_does_not_give_is_refused(monkeypatch, capsys):
     monkeypatch.setattr(files.Path, "read_bytes", refuse)
     assert main(["check", "mine.py"]) == 2
     assert "mine.py cannot be read: Permission denied." in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", [["check"], []])
+def test_a_file_in_a_folder_without_permission_is_refused(command, monkeypatch, capsys):
+    stat = os.stat
+
+    def refuse(path, *args, **kwargs):
+        if "secret" in str(path):
+            raise PermissionError(13, "Permission denied")
+        return stat(path, *args, **kwargs)
+
+    monkeypatch.setattr(os, "stat", refuse)
+    monkeypatch.setattr(os, "lstat", refuse)
+    assert main([*command, "secret/x.py"]) == 2
+    err = capsys.readouterr().err
+    assert ("secret/x.py cannot be read: Permission denied." if command else "check") in err
+    assert "nobody foresaw" not in err
+
+
+def test_a_name_that_no_file_can_have_is_of_none(capsys):
+    assert main(["check", "x" * 5000]) == 2
+    assert "is not there." in capsys.readouterr().err
+
+
+def test_a_folder_that_may_not_be_read_is_not_looked_through(monkeypatch, capsys):
+    def refuse(folder):
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(cli.Path, "iterdir", refuse)
+    assert main(["check", "task_1_1.py"]) == 2
+    assert "task_1_1.py is not there." in capsys.readouterr().err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there are no named pipes in folders")
+def test_a_pipe_is_refused_and_not_waited_for(capsys):
+    os.mkfifo("mine.py")
+    os.mkfifo("mine")
+    for name in ("mine.py", "mine"):
+        assert main(["check", name]) == 2
+        assert f"{name} is a pipe or a device: " in capsys.readouterr().err
 
 
 def test_a_program_cannot_steer_the_terminal(capsys):

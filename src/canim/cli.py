@@ -122,7 +122,7 @@ def _meant(word: str) -> str:
     """Return the command that was meant by a word that is none, or ""."""
     if word.startswith("-") or word in _COMMANDS:
         return ""
-    if Path(word).exists() or reading.kind(Path(word)) or _certain(word):
+    if _is_there(Path(word)) or reading.kind(Path(word)) or _certain(word):
         return f"check {word}"
     return "".join(difflib.get_close_matches(word, _COMMANDS, 1))
 
@@ -146,7 +146,7 @@ def _paths(text: str) -> list[Path]:
     if not text:
         raise ValueError("The name of the file is empty.")
     path = Path(text)
-    if path.exists() or path.is_symlink():
+    if _is_there(path):
         return [path]
     # Windows hands patterns over as they were typed.
     if found := sorted(glob.glob(text)):
@@ -158,6 +158,16 @@ def _paths(text: str) -> list[Path]:
     meant = _files_of(reading.task_in(path), path.parent)
     there = f" Do you mean {' or '.join(map(str, meant))}?" if meant else ""
     raise ValueError(f"{text} is not there.{there}")
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        path.lstat()
+    except PermissionError:
+        return True  # who reads it says why it cannot be read
+    except (OSError, ValueError):
+        return False
+    return True
 
 
 def _only_file_of(number: str) -> Path:
@@ -177,9 +187,13 @@ def _only_file_of(number: str) -> Path:
 
 def _files_of(number: str, folder: Path) -> list[Path]:
     """Return the programs and notebooks in the folder that have this task in their names."""
-    if not number or not folder.is_dir():
+    if not number:
         return []
-    return [p for p in sorted(folder.iterdir()) if reading.task_in(p) == number and reading.kind(p)]
+    try:
+        there = sorted(folder.iterdir())
+    except OSError:
+        return []
+    return [p for p in there if reading.task_in(p) == number and reading.kind(p)]
 
 
 def _tasks() -> int:
@@ -222,7 +236,7 @@ def _check(paths: list[Path], task: str | None, asked: argparse.Namespace) -> in
     """Check one file, folder or zip after another; return the exit code of all."""
     from canim.checks import handins
 
-    classes = [path for path in paths if path.is_dir() or handins.is_zip(path)]
+    classes = [path for path in paths if os.path.isdir(path) or handins.is_zip(path)]
     for option in ("figure", "hint") if classes else ():
         if getattr(asked, option):
             kind = "folder" if classes[0].is_dir() else "zip"

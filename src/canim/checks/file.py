@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import contextlib
 import linecache
+import os
 import re
 import tempfile
 import traceback
@@ -69,7 +70,7 @@ def check_file(
     Fault
         If the check itself fails, whatever the file.
     """
-    if path.is_file() and not reading.kind(path):
+    if os.path.isfile(path) and not reading.kind(path):
         raise UnusableFile(f"{path} {reading.why_not(path)}")
     text, note = reading.read(path)
     is_notebook = reading.kind(path) == ".ipynb" or reading.is_notebook(text)

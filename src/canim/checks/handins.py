@@ -70,7 +70,7 @@ class _Refused(Exception):
 
 def is_zip(path: Path) -> bool:
     """Tell whether this is a zip by its name."""
-    return path.suffix.lower() == ".zip" and path.is_file()
+    return path.suffix.lower() == ".zip" and os.path.isfile(path)
 
 
 def find(root: Path, unpacked: Path) -> Iterator[Found]:

@@ -7,6 +7,7 @@ import codecs
 import io
 import json
 import re
+import stat
 import tokenize
 import unicodedata
 import warnings
@@ -202,6 +203,10 @@ def read(path: Path) -> tuple[str, str]:
         If the file cannot be read, or it is not certain how its letters are written.
     """
     try:
+        mode = path.stat().st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+            # Reading from it may never end.
+            raise UnusableFile(f"{path} is a pipe or a device: save it as a file first.")
         data = path.read_bytes()
     except FileNotFoundError:
         raise UnusableFile(f"{path} is not there.") from None
