@@ -27,14 +27,15 @@ const mark = StateField.define({
   provide: (field) => EditorView.decorations.from(field),
 });
 
-/** @param {Element} parent @param {string} text
+/** @param {Element} parent @param {string} text @param {number} caret in letters from the beginning
  *  @param {(text: string) => void} changed @param {() => void} run */
-export function edit(parent, text, changed, run) {
+export function edit(parent, text, caret, changed, run) {
   const label = "Program: Escape, then Tab, leaves the editor";
   const view = new EditorView({
     parent,
     state: EditorState.create({
       doc: text,
+      selection: { anchor: Math.min(caret, text.length) },
       extensions: [
         keymap.of([{ key: "Mod-Enter", run: () => (run(), true) }, indentWithTab, ...closeBracketsKeymap]),
         keymap.of([...defaultKeymap, ...historyKeymap]),

@@ -11,6 +11,7 @@ test("the line that stopped the program is marked until the text changes", () =>
   const editor = edit(
     page,
     "a = 1\nb = 2\n",
+    0,
     (text) => texts.push(text),
     () => {},
   );
@@ -33,6 +34,7 @@ test("Ctrl+Enter in the editor runs the program", () => {
   const editor = edit(
     page,
     "",
+    0,
     () => {},
     () => count++,
   );

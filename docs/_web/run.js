@@ -242,6 +242,23 @@ class Run extends HTMLElement {
     else this.#code.replaceChildren(make("pre", { tabIndex: 0 }, text));
   }
 
+  /** @param {string} text */
+  #changed(text) {
+    if (text === this.#text) return; // it was put there by #write
+    this.#set(text);
+    this.#keep();
+  }
+
+  /** Return where in the program the reader has clicked, in letters from its beginning. */
+  #caret() {
+    const selection = getSelection();
+    if (!selection?.anchorNode || !this.#code.contains(selection.anchorNode)) return 0;
+    const before = document.createRange();
+    before.selectNodeContents(this.#code);
+    before.setEnd(selection.anchorNode, selection.anchorOffset);
+    return before.toString().length;
+  }
+
   /** Put another program in place of the reader's. @param {Program} program */
   #replace({ text, answers }) {
     this.#answers = answers;
@@ -290,14 +307,19 @@ class Run extends HTMLElement {
       return;
     }
     const hadFocus = this.#code.contains(document.activeElement);
+    const caret = hadFocus ? this.#caret() : 0;
+    const { scrollTop } = this.#code;
     this.#code.replaceChildren();
-    const changed = (/** @type {string} */ text) => {
-      if (text === this.#text) return; // it was put there by #write
-      this.#set(text);
-      this.#keep();
-    };
-    this.#editor = editor.edit(this.#code, this.#text, changed, () => this.#run());
-    this.#lookAt();
+    this.#editor = editor.edit(
+      this.#code,
+      this.#text,
+      caret,
+      (/** @type {string} */ text) => this.#changed(text),
+      () => this.#run(),
+    );
+    // The line that the reader looks at stays where it is.
+    const scroller = this.#code.querySelector(".cm-scroller");
+    if (scroller) scroller.scrollTop = scrollTop;
     if (hadFocus) this.#editor?.focus();
   }
 

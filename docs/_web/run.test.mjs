@@ -243,14 +243,15 @@ test("Run, Stop and Run in haste run the program once, and it can be stopped", a
   assert.equal([...page.querySelectorAll("button")].find((b) => b.textContent === "Stop")?.disabled, false);
 });
 
-test("what stops the page from giving its order is told", async (context) => {
+test("what stops the page from giving its order is told", async () => {
   await run();
   press("Stop");
   await turn();
-  FakeWorker.made.at(-1)?.tell("ready");
-  context.mock.method(FakeWorker.prototype, "postMessage", () => {
+  const worker = /** @type {FakeWorker} */ (FakeWorker.made.at(-1));
+  worker.tell("ready");
+  worker.postMessage = () => {
     throw new DOMException("no copy", "DataCloneError");
-  });
+  };
   press("Run");
   await until(() => /does not start/.test(status() ?? ""));
 });
@@ -275,4 +276,15 @@ test("what Python has loaded is kept for a reader without the network", async ()
   await turn();
   assert.deepEqual(told.at(-1), ["https://example.org/course/_run/12ab/worker.js"]);
   Reflect.deleteProperty(navigator, "serviceWorker");
+});
+
+test("the editor begins where the reader has clicked while it was loading", async () => {
+  const text = /** @type {HTMLElement} */ (page.querySelector(".run-code pre"));
+  text.tabIndex = 0;
+  text.focus();
+  const selection = { anchorNode: text.firstChild, anchorOffset: 5 };
+  Object.assign(globalThis, { getSelection: () => selection });
+  await until(() => page.querySelector(".cm-content"));
+  const { view } = /** @type {any} */ (page.querySelector(".cm-content")).cmTile;
+  assert.equal(view.state.selection.main.anchor, 5);
 });

@@ -674,3 +674,18 @@ def test_without_javascript_the_code_is_shown(visit):
     opened = visit(FIRST, java_script_enabled=False)
     assert "JavaScript" in opened.locator(".run-missing").inner_text()
     assert "def hermite_basis" in opened.locator("canim-run pre").inner_text()
+
+
+def test_the_editor_begins_where_the_reader_has_clicked(visit):
+    opened = visit(FIRST, service_workers="block")
+    held = []
+    opened.route("**/editor.js*", lambda route: held.append(route))
+    opened.locator(".run-code pre").get_by_text("# TODO: H[1]").last.click()
+    opened.get_by_text("The editor is loading").wait_for()
+    for route in held:
+        route.continue_()
+    opened.wait_for_selector(".cm-content:focus")
+    opened.keyboard.press("End")
+    opened.keyboard.type("  # here")
+    typed = opened.locator(".cm-activeLine").inner_text()
+    assert typed.strip() == "# TODO: H[1], end value  # here"
