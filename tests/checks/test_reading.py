@@ -219,3 +219,30 @@ def test_what_is_not_a_task_is_not_taken_for_one(tmp_path):
     path.write_text('def check(*texts, **more): pass\ncheck()\ncheck("step 11")\ncheck(text="1.1")')
     with pytest.raises(reading.NoTask):
         check_file(path)
+
+
+RAW = """!pip install canim
+%matplotlib inline
+import canim
+from canim.interpolation import hermite_basis
+"""
+
+
+def test_lines_of_a_notebook_in_a_program_are_read_as_in_a_cell(tmp_path):
+    path = tmp_path / "task_1_1.py"
+    path.write_text(f'{RAW}canim.check("1.1", hermite_basis=hermite_basis)\n')
+    (report,) = check_file(path)
+    assert report.done
+    assert report.stops == []
+    words = "The file has lines of a notebook, such as !pip install canim: it was read like a cell."
+    assert words in " ".join(report.notes)
+
+
+def test_what_else_is_wrong_in_a_program_with_lines_of_a_notebook_is_told(tmp_path):
+    path = tmp_path / "task_1_1.py"
+    path.write_text(f"{RAW}x = = 1\n")
+    with pytest.raises(UnusableFile, match=r"task_1_1\.py, line 5:\n.*x = = 1"):
+        check_file(path)
+    path.write_text("x = = 1\n% 2\n")
+    with pytest.raises(UnusableFile, match=r"task_1_1\.py, line 1:"):
+        check_file(path)

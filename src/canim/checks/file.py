@@ -32,6 +32,7 @@ NOT_ALL_BESIDE = (
     f"Not all files beside it came along: at most {MOST_FILES_BESIDE} files, and "
     f"{MOST_BESIDE // 10**6} MB."
 )
+_RAW = "it was read like a cell. Remove these lines, or Python will not run it."
 
 
 def check_file(
@@ -74,7 +75,8 @@ def check_file(
         raise UnusableFile(f"{path} {reading.why_not(path)}")
     text, note = reading.read(path)
     is_notebook = reading.kind(path) == ".ipynb" or reading.is_notebook(text)
-    sources = _sources(path, text, is_notebook)
+    raw = "" if is_notebook else _line_of_notebook(text)
+    sources = _sources(path, notebook.translated(text) if raw else text, is_notebook)
     trees, refused = _parsed(sources, is_notebook)
     calls = _calls(trees)
     try:
@@ -83,6 +85,8 @@ def check_file(
         raise [*refused, problem][0] from None
     except Exception as error:
         raise Fault("the check of this task cannot be loaded.", traceback.format_exc()) from error
+    if raw:
+        notes = [f"The file has lines of a notebook, such as {raw}: {_RAW}", *notes]
     notes = [*([note] if note else []), *notes]
     own = guard or make()
     limits = limits or Limits()
@@ -248,6 +252,20 @@ def _parse(code: str, name: str, is_notebook: bool) -> ast.Module:
         raise UnusableFile(f"{name} is nested too deep for Python to read.") from None
     except ValueError as error:
         raise UnusableFile(f"{name} is not a Python program: {error}.") from None
+
+
+def _line_of_notebook(text: str) -> str:
+    """Return the first line for IPython in a program that Python cannot read, or ""."""
+    raw = re.search(r"^[ \t]*((?:!|%%?)[A-Za-z].*)$", text, re.MULTILINE)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # Python gives them when the program is run
+            ast.parse(text)
+    except SyntaxError:
+        return raw[1] if raw else ""
+    except (RecursionError, MemoryError, ValueError):
+        pass  # `_parse` says it
+    return ""
 
 
 def _sources(path: Path, text: str, is_notebook: bool) -> list[tuple[str, str]]:
