@@ -512,13 +512,26 @@ def test_what_moodle_keeps_of_one_student_in_several_places_is_of_one(tmp_path, 
 
 
 def test_a_document_in_place_of_a_program_does_not_come_along(tmp_path, quick):
-    documents = ["Ben_13_task_0_0.docx", "Cem_14_task_0_0.PDF"]
-    write(tmp_path, {"Ann_12_task_0_0.py": RIGHT, "face.png": b"x", "sheet.pdf": b"x"})
-    write(tmp_path, dict.fromkeys(documents, b"x"))
+    others = ["Ben_13_report.docx", "Ben_13_task_0_0.docx", "Cem_14_scan.pdf"]
+    others += ["Cem_14_task_0_0.PDF", "Dora_15_scan.jpg", "Eva_16_talk.pptx", "sheet.pdf"]
+    own = ["Ann_12_report.docx", "ann_12.jpg", "face.png", "notes.txt", "pictures/Ben_13.png"]
+    (tmp_path / "pictures").mkdir()
+    write(tmp_path, {"Ann_12_task_0_0.py": f"# face.png{RIGHT}"})
+    write(tmp_path, dict.fromkeys([*others, *own], b"x"))
     rows = folder.check_folder(tmp_path, jobs=1)
     along = [row["file"] for row in rows if row["result"] == "came along"]
-    assert along == ["face.png", "sheet.pdf"]
-    assert nothing_of(rows) == documents
+    assert (sorted(along), nothing_of(rows)) == (sorted(own), others)
+
+
+def test_beside_programs_without_a_name_in_front_documents_come_along(tmp_path, quick):
+    (tmp_path / "ben").mkdir()
+    own = ["Ann_report.docx", "ben/scan.jpg"]
+    write(tmp_path, {NAME: RIGHT, "ben/hermite.py": RIGHT} | dict.fromkeys(own, b"x"))
+    rows = folder.check_folder(tmp_path / "ben", jobs=1)
+    assert [row["result"] for row in rows[-1:]] == ["came along"]
+    (tmp_path / "ben" / "hermite.py").unlink()
+    rows = folder.check_folder(tmp_path, jobs=1)
+    assert [row["file"] for row in rows if row["result"] == "came along"] == own
 
 
 def test_a_zip_that_cannot_be_read_is_refused(tmp_path, capsys):

@@ -13,6 +13,7 @@ import threading
 import traceback
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +34,11 @@ ONE_BY_ONE = (
 OURS = "could not be checked, and canim is to blame, not the file"
 NOT_CHECKED, CAME_ALONG, PASSED_OVER = "not checked", "came along", "passed over"
 _NO_TASK = "no task"  # until it is known whether another program imports it
-_DOCUMENTS = (".docx", ".doc", ".odt", ".rtf", ".pages", ".pdf")
+_DOCUMENTS = (
+    *(".docx", ".doc", ".odt", ".rtf", ".pages", ".pdf"),
+    *(".ppt", ".pptx", ".key", ".odp"),
+)
+_SCANS = (".png", ".jpg", ".jpeg", ".gif", ".bmp", ".webp", ".tif", ".tiff", ".heic")
 # Letters that a spreadsheet would take for the beginning of a formula.
 _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
@@ -133,10 +138,35 @@ def _is_owned(one: Found, folder: str, programs: dict[Found, str]) -> bool:
     """
     # Such a document is what somebody handed in instead of a program.
     instead = one.path.suffix.lower() in _DOCUMENTS and reading.task_in(one.path)
+    suffix = one.path.suffix.lower()
+    if not instead and suffix in _SCANS and any(one.path.name in _text(p.path) for p in programs):
+        return True
+    flat = "/" not in one.name.removeprefix(f"{folder}/" if folder else "")
+    if flat and suffix in (*_DOCUMENTS, *_SCANS):
+        named = {_whose(p.path) for p in programs if _AFTER_NAME.search(p.path.name)}
+        own = _whose(one.path)
+        if named and not any(own[: len(whose)] == whose for whose in named):
+            return False
     if instead or len(set(programs.values())) == len(programs):
         return not instead
     owners = {tuple(p.name.removeprefix(f"{folder}/").split("_")[:2]) for p in programs}
     return tuple(one.name.removeprefix(f"{folder}/").split("_")[:2]) in owners
+
+
+_AFTER_NAME = re.compile(r"task[_ -]?\d|assign", re.IGNORECASE)
+
+
+def _whose(path: Path) -> tuple[str, ...]:
+    """Return how the name of a file begins, before what it says of a task."""
+    before = _AFTER_NAME.split(reading.plain_name(path.stem))[0].strip("_ -")
+    return tuple(before.split("_")[:2]) if before else ()
+
+
+def _text(program: Path) -> str:
+    text = ""
+    with suppress(UnusableFile):
+        text, _ = reading.read(program)
+    return text
 
 
 def can_share() -> bool:
